@@ -1,0 +1,74 @@
+"""Families of grid diagrams: torus knots and random knots of a given size."""
+
+from __future__ import annotations
+
+import math
+import random
+
+from knotopt.diagram.grid import GridDiagram
+from knotopt.errors import GridError
+
+
+def torus_knot(p: int, q: int) -> GridDiagram:
+    """The standard grid of the torus knot T(p, q), of size |p| + |q| (its arc index if both >= 2).
+
+    T(p, q) with p q > 0 is the positive (right-handed) knot, with p q < 0 its mirror image.
+    Source: Matsuda, "Links in an open book decomposition and in the standard contact structure",
+    doi:10.1090/S0002-9939-06-08350-0; Etnyre and Honda for the arc index.
+
+    Raises
+    ------
+    GridError
+        p or q is zero, or they have a common divisor (then T(p, q) is a link).
+
+    Examples
+    --------
+    >>> torus_knot(2, 7).size
+    9
+    >>> torus_knot(2, 4)
+    Traceback (most recent call last):
+    ...
+    knotopt.errors.GridError: T(2,4) is a link of 2 components, a knot has 1
+    """
+    if p == 0 or q == 0:
+        raise GridError(f"T({p},{q}): p and q must not be zero")
+    components = math.gcd(p, q)
+    if components != 1:
+        raise GridError(f"T({p},{q}) is a link of {components} components, a knot has 1")
+    size = abs(p) + abs(q)
+    minus = range(1, size + 1)
+    plus = [(row + abs(p) - 1) % size + 1 for row in minus]
+    marks = [*enumerate(minus, 1), *enumerate(plus, 1)]  # with columns over rows: T(|p|, -|q|)
+    if p * q > 0:
+        marks = [(column, size + 1 - row) for column, row in marks]
+    return GridDiagram.from_marks(marks)
+
+
+def random_knot(size: int, seed: int) -> GridDiagram:
+    """A grid diagram drawn uniformly from all oriented knot diagrams of this size.
+
+    An order in which to visit the columns and one in which to visit the rows is one diagram of a
+    single component, and each diagram comes from `size` such pairs; so no draw is rejected.
+
+    Parameters
+    ----------
+    size : int
+        Grid size N >= 2.
+    seed : int
+        Seed of the generator; the same seed gives the same diagram.
+
+    Examples
+    --------
+    >>> random_knot(6, seed=1) == random_knot(6, seed=1)
+    True
+    """
+    if size < 2:
+        raise GridError(f"a grid diagram has size 2 or more, not {size}")
+    generator = random.Random(seed)
+    columns = generator.sample(range(1, size + 1), size)
+    rows = generator.sample(range(1, size + 1), size)
+    minus, plus = [0] * size, [0] * size
+    for step, column in enumerate(columns):
+        minus[column - 1] = rows[step - 1]
+        plus[column - 1] = rows[step]
+    return GridDiagram(tuple(minus), tuple(plus))

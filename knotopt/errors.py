@@ -1,0 +1,35 @@
+"""Errors for wrong input. A method that stops early returns a value; it does not raise."""
+
+
+class KnotoptError(ValueError):
+    """Base of every error that knotopt raises for wrong input."""
+
+
+class GridError(KnotoptError):
+    """A grid diagram that is not one: the message names the row, column or entry."""
+
+
+class MoveError(KnotoptError):
+    """A Cromwell move that does not apply to this grid diagram."""
+
+
+class CutError(KnotoptError):
+    """A cut that does not exist in this grid diagram or that carries crossings."""
+
+
+class UnknownKnotError(KnotoptError):
+    """A knot name that is in no table at hand: the message gives the nearest names."""
+
+
+class FileFormatError(KnotoptError):
+    """A file that cannot be read as a grid diagram: the message names file, line and key."""
+
+
+class MissingExtraError(KnotoptError):
+    """An optional dependency is not installed: the message is the line that installs it."""
+
+    def __init__(self, package: str, extra: str, purpose: str) -> None:
+        super().__init__(
+            f"{purpose} needs {package}, which is not installed; "
+            f"install it with: pip install 'knotopt[{extra}]'"
+        )
