@@ -1,0 +1,128 @@
+"""Cuts: the crossing-free segment at which the closed path is opened into a cable.
+
+The cut must carry no crossing, else the cable itself is not knotted. The four outermost segments
+never do: L (column 1), R (column N), B (row 1), T (row N). Every other segment has a name too:
+col5, row7. "+" follows the closed traversal that starts at the lexicographically smallest turning
+point and moves along its column first; "-" is the other direction.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from knotopt.diagram.grid import GridDiagram
+from knotopt.errors import CutError
+
+OUTER_CUTS = ("L+", "L-", "R+", "R-", "B+", "B-", "T+", "T-")
+"""Names of the cuts at the outermost segments, in the order that breaks ties."""
+
+
+@dataclass(frozen=True)
+class Cut:
+    """A segment of a grid diagram, and the direction in which the cable is walked.
+
+    Parameters
+    ----------
+    axis : "column" or "row"
+        Whether the segment removed is the one in a column or the one in a row.
+    index : int
+        That column or row, 1-based.
+    direction : "+" or "-"
+    size : int
+        Grid size N, which decides whether the segment is an outermost one.
+
+    Examples
+    --------
+    >>> Cut.parse("T-", size=5)
+    Cut(axis='row', index=5, direction='-', size=5)
+    >>> str(Cut.parse("row5-", size=5)), str(Cut.parse("col3+", size=5))
+    ('T-', 'col3+')
+    """
+
+    axis: Literal["column", "row"]
+    index: int
+    direction: Literal["+", "-"]
+    size: int
+
+    @classmethod
+    def parse(cls, name: str, size: int) -> Cut:
+        """Cut by its name: L+ ... T-, or col3+, row5-.
+
+        Raises
+        ------
+        CutError
+            The name is of neither form, or the column or row is outside the grid.
+        """
+        match = re.fullmatch(r"\s*(?:([LRBT])|(col|row)\s*(\d+))([+-])\s*", name, re.IGNORECASE)
+        if match is None:
+            raise CutError(
+                f"no cut is named {name!r}: expected one of {', '.join(OUTER_CUTS)}, "
+                "or a column or row such as col3+ or row5-"
+            )
+        letter, line, number, sign = match.groups()
+        if letter:
+            axis = "column" if letter.upper() in "LR" else "row"
+            index = 1 if letter.upper() in "LB" else size
+        else:
+            axis = "column" if line.lower() == "col" else "row"
+            index = int(number)
+        if not 1 <= index <= size:
+            raise CutError(f"cut {name!r}: {axis} {index} is outside the grid of size {size}")
+        return cls(
+            "column" if axis == "column" else "row", index, "+" if sign == "+" else "-", size
+        )
+
+    @property
+    def is_outer(self) -> bool:
+        """Whether the segment is one of the four outermost ones."""
+        return self.index in (1, self.size)
+
+    def __str__(self) -> str:
+        if self.is_outer:
+            letters = "LR" if self.axis == "column" else "BT"
+            return letters[self.index != 1] + self.direction
+        return f"{'col' if self.axis == 'column' else 'row'}{self.index}{self.direction}"
+
+
+def outer_cuts(diagram: GridDiagram) -> tuple[Cut, ...]:
+    """The eight cuts L+ ... T- at the outermost segments, in the order that breaks ties."""
+    return tuple(Cut.parse(name, diagram.size) for name in OUTER_CUTS)
+
+
+def crossing_free_cuts(diagram: GridDiagram) -> tuple[Cut, ...]:
+    """Every cut at a segment without crossings: the outer ones first, then columns, then rows.
+
+    Examples
+    --------
+    >>> from knotopt.diagram.families import torus_knot
+    >>> [str(cut) for cut in crossing_free_cuts(torus_knot(2, 3))]
+    ['L+', 'L-', 'R+', 'R-', 'B+', 'B-', 'T+', 'T-']
+    """
+    crossed = crossing_cells(diagram)
+    size = diagram.size
+    inner = [
+        Cut.parse(f"{line}{index}{direction}", size)
+        for line, along in (("col", 0), ("row", 1))
+        for index in range(2, size)
+        if not crossed.take(index - 1, axis=along).any()
+        for direction in "+-"
+    ]
+    return (*outer_cuts(diagram), *inner)
+
+
+def crossing_cells(diagram: GridDiagram) -> NDArray[np.bool_]:
+    """Where a column's segment crosses a row's, shape (N, N), indexed [column - 1, row - 1]."""
+    lines = np.arange(1, diagram.size + 1)
+    marks = np.array(diagram.marks)
+    low_row, high_row = marks[0::2, 1], marks[1::2, 1]
+    by_row = marks[np.lexsort((marks[:, 0], marks[:, 1])), 0]
+    low_column, high_column = by_row[0::2], by_row[1::2]
+    column_passes = (low_row[:, None] < lines) & (lines < high_row[:, None])
+    row_passes = (low_column < lines[:, None]) & (lines[:, None] < high_column)
+    crossed: NDArray[np.bool_] = column_passes & row_passes
+    return crossed

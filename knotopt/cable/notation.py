@@ -1,0 +1,79 @@
+"""Gauss, PD and DT codes of the closed-up cable, as other knot software reads them.
+
+The cable closes along its crossing-free cut, so the closed knot has exactly the cable's crossings.
+Edges and labels are numbered along the path from p_1.
+"""
+
+from __future__ import annotations
+
+from knotopt.cable.cable import Cable
+
+
+def gauss_code(cable: Cable) -> tuple[int, ...]:
+    """Signed Gauss code, length 2C: +k for the over and -k for the under visit of crossing k.
+
+    Crossings are numbered from 1 in the order of their first visits.
+
+    Examples
+    --------
+    >>> from knotopt.diagram.families import torus_knot
+    >>> gauss_code(Cable(torus_knot(2, 3), "L+"))
+    (1, -2, 3, -1, 2, -3)
+    """
+    _, index, over = cable.visits
+    return tuple(
+        crossing + 1 if is_over else -crossing - 1
+        for crossing, is_over in zip(index.tolist(), over.tolist(), strict=True)
+    )
+
+
+def pd_code(cable: Cable) -> tuple[tuple[int, int, int, int], ...]:
+    """Planar diagram code: at each crossing its four edges, counterclockwise from the incoming
+    under edge. Edges are numbered 1 ... 2C.
+
+    The same convention as KnotTheory, KnotInfo and Spherogram. A cable without crossings has the
+    empty code.
+
+    Examples
+    --------
+    >>> from knotopt.diagram.families import torus_knot
+    >>> pd_code(Cable(torus_knot(2, 3), "L+"))
+    ((4, 2, 5, 1), (2, 6, 3, 5), (6, 4, 1, 3))
+    """
+    edges = 2 * len(cable.crossings)
+    places: list[list[int]] = [[0, 0] for _ in cable.crossings]  # [under, over] incoming edge
+    _, index, over = cable.visits
+    for edge, (crossing, is_over) in enumerate(zip(index.tolist(), over.tolist(), strict=True), 1):
+        places[crossing][is_over] = edge
+    code = []
+    for (under, incoming), crossing in zip(places, cable.crossings, strict=True):
+        outgoing = incoming % edges + 1
+        right, left = (outgoing, incoming) if crossing.sign > 0 else (incoming, outgoing)
+        code.append((under, right, under % edges + 1, left))
+    return tuple(code)
+
+
+def dt_code(cable: Cable) -> tuple[int, ...]:
+    """Dowker-Thistlethwaite code: the even label paired with 1, 3, 5, ...; negative if it is over.
+
+    The code does not tell a knot from its mirror image.
+
+    Examples
+    --------
+    >>> from knotopt.diagram.families import torus_knot
+    >>> dt_code(Cable(torus_knot(2, 3), "L+"))
+    (4, 6, 2)
+    """
+    _, index, over = cable.visits
+    labels: list[list[int]] = [[] for _ in cable.crossings]
+    for label, crossing in enumerate(index.tolist(), 1):
+        labels[crossing].append(label)
+    even_at = {min(pair, key=_is_even): max(pair, key=_is_even) for pair in labels}
+    return tuple(
+        -even_at[odd] if over[even_at[odd] - 1] else even_at[odd]
+        for odd in range(1, 2 * len(labels), 2)
+    )
+
+
+def _is_even(label: int) -> bool:
+    return label % 2 == 0

@@ -1,0 +1,70 @@
+"""Staircases: diagonal runs of crossings, along which one strand can become a straight span.
+
+Paper, section IV.A and Fig. 7: in the baseline every corner of the two interlaced staircases holds
+a robot; the reduced cable is a straight span that one strand winds around.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Literal
+
+import numpy as np
+
+from knotopt.cable.cable import Cable
+
+
+@dataclass(frozen=True)
+class Staircase:
+    """A maximal diagonal run of crossings.
+
+    Attributes
+    ----------
+    crossings : tuple of int
+        Indices into `cable.crossings`, by increasing column; neighbours are one column and one
+        row apart.
+    direction : "rising" or "falling"
+    is_braid : bool
+        Whether consecutive crossings are joined by two arcs of the cable: two strands that wind
+        around each other. Else the run is a coincidence of the drawing.
+    """
+
+    crossings: tuple[int, ...]
+    direction: Literal["rising", "falling"]
+    is_braid: bool
+
+    def __len__(self) -> int:
+        return len(self.crossings)
+
+
+def find_staircases(cable: Cable, min_length: int = 3) -> tuple[Staircase, ...]:
+    """Every maximal diagonal run of at least `min_length` crossings, longest first.
+
+    Examples
+    --------
+    >>> from knotopt.diagram.families import torus_knot
+    >>> find_staircases(Cable(torus_knot(2, 5), "L+"))
+    (Staircase(crossings=(4, 3, 2, 1), direction='falling', is_braid=True),)
+    """
+    at = {(c.column, c.row): i for i, c in enumerate(cable.crossings)}
+    _, index, _ = cable.visits
+    joined: dict[frozenset[int], int] = {}
+    for pair in np.stack((index[:-1], index[1:]), axis=1).tolist():
+        joined[frozenset(pair)] = joined.get(frozenset(pair), 0) + 1
+    found = []
+    directions: tuple[tuple[int, Literal["rising", "falling"]], ...] = (
+        (1, "rising"),
+        (-1, "falling"),
+    )
+    for step, direction in directions:
+        for column, row in sorted(at):
+            if (column - 1, row - step) in at:
+                continue
+            run = [at[column, row]]
+            while (column + len(run), row + step * len(run)) in at:
+                run.append(at[column + len(run), row + step * len(run)])
+            if len(run) >= min_length:
+                braid = all(joined.get(frozenset(pair), 0) >= 2 for pair in pairwise(run))
+                found.append(Staircase(tuple(run), direction, braid))
+    return tuple(sorted(found, key=lambda staircase: -len(staircase)))
