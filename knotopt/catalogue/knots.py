@@ -1,0 +1,125 @@
+"""The shipped catalogue: all 249 prime knots up to 10 crossings, and the grids of Table I.
+
+Facts from KnotInfo (Livingston and Moore, https://knotinfo.org), with the grids' rows reversed so
+that columns over rows gives KnotInfo's chirality.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+from knotopt.diagram.grid import GridDiagram, Mark
+
+
+@dataclass(frozen=True)
+class PrimeKnot:
+    """A prime knot with its grid diagram and invariants.
+
+    Attributes
+    ----------
+    name : str
+        KnotInfo's name: 8_19, 11a_1, 12n_242.
+    crossing_number, arc_index, determinant : int
+    alternating : bool
+    signature : int
+        In KnotInfo's sign, the opposite of that of V + V^T for a Seifert matrix V.
+    alexander : tuple of int
+        Alexander polynomial, constant term first, leading coefficient positive.
+    marks : tuple of [column, row]
+    """
+
+    name: str
+    crossing_number: int
+    arc_index: int
+    alternating: bool
+    determinant: int
+    signature: int
+    alexander: tuple[int, ...]
+    marks: tuple[Mark, ...]
+
+    @property
+    def diagram(self) -> GridDiagram:
+        """The knot's grid diagram."""
+        return GridDiagram.from_marks(self.marks)
+
+    def to_json(self) -> dict[str, Any]:
+        """The entry as a JSON object, as the catalogue's files hold it."""
+        return {
+            "name": self.name,
+            "crossing_number": self.crossing_number,
+            "arc_index": self.arc_index,
+            "alternating": self.alternating,
+            "determinant": self.determinant,
+            "signature": self.signature,
+            "alexander": list(self.alexander),
+            "grid": [list(mark) for mark in self.marks],
+        }
+
+    @classmethod
+    def from_json(cls, entry: dict[str, Any]) -> PrimeKnot:
+        """The inverse of `to_json`."""
+        facts = {key: value for key, value in entry.items() if key not in ("alexander", "grid")}
+        return cls(
+            alexander=tuple(entry["alexander"]),
+            marks=tuple((column, row) for column, row in entry["grid"]),
+            **facts,
+        )
+
+
+@dataclass(frozen=True)
+class Table1Grid:
+    """A grid for a row of the paper's Table I.
+
+    The paper shows its grids as pictures only, so which knots its rows show is not known; the knot
+    is named up to mirror image. `preferred` marks the one grid per row that the table uses.
+    """
+
+    row: str
+    knot: str
+    preferred: bool
+    robots_after_paper: int
+    marks: tuple[Mark, ...]
+
+    @property
+    def diagram(self) -> GridDiagram:
+        """The row's grid diagram."""
+        return GridDiagram.from_marks(self.marks)
+
+
+@cache
+def shipped_knots() -> dict[str, PrimeKnot]:
+    """The 249 prime knots up to 10 crossings by name, in KnotInfo's order.
+
+    Examples
+    --------
+    >>> knots = shipped_knots()
+    >>> len(knots), knots["8_19"].arc_index, knots["4_1"].alexander
+    (249, 7, (1, -3, 1))
+    """
+    return {entry["name"]: PrimeKnot.from_json(entry) for entry in _data("prime_knots.json")}
+
+
+@cache
+def table1_grids() -> tuple[Table1Grid, ...]:
+    """The grids for the six rows of Table I, in the table's order, preferred ones first."""
+    return tuple(
+        Table1Grid(
+            entry["row"],
+            entry["knot"],
+            entry["preferred"],
+            entry["robots_after_paper"],
+            tuple((column, row) for column, row in entry["grid"]),
+        )
+        for entry in _data("table1_grids.json")
+    )
+
+
+def _data(name: str) -> list[dict[str, Any]]:
+    entries: list[dict[str, Any]] = json.loads(
+        files("knotopt.catalogue").joinpath(name).read_text(encoding="utf-8")
+    )
+    return entries
