@@ -1,0 +1,59 @@
+"""The command `knotopt`. Commands import what they compute with when they run, not before."""
+
+from __future__ import annotations
+
+import sys
+from typing import Annotated
+
+import typer
+
+from knotopt.cli import doctor, knots, lcf, show, table1
+from knotopt.errors import KnotoptError
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        import importlib.metadata
+
+        print(importlib.metadata.version("knotopt"))
+        raise typer.Exit
+
+
+app = typer.Typer(
+    name="knotopt",
+    help="Smallest robot teams that tie a knot in a cable in midair. "
+    "KNOT is a name (8_19), a row of Table I (3, '7 Var1'), a torus knot 'T(2,7)', "
+    "or a .json or .csv file with a grid diagram.",
+    no_args_is_help=True,
+    add_completion=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode="rich",
+)
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_print_version, is_eager=True, help="Print the version."
+        ),
+    ] = False,
+) -> None:
+    """Options of the command itself."""
+
+
+app.command("knots")(knots.knots)
+app.command("show")(show.show)
+app.command("lcf")(lcf.lcf)
+app.command("table1")(table1.table1)
+app.command("doctor")(doctor.doctor)
+
+
+def main() -> None:
+    """Run the command line; wrong input ends with one sentence and exit status 1."""
+    try:
+        app()
+    except KnotoptError as error:
+        print(f"knotopt: {error}", file=sys.stderr)
+        sys.exit(1)

@@ -1,0 +1,55 @@
+"""`knotopt doctor`: versions, and which solvers and extras work here."""
+
+from __future__ import annotations
+
+import typer
+
+from knotopt.cli.output import JsonOption, print_json, print_table
+
+EXTRAS = {"viz": "matplotlib", "knotinfo": "database_knotinfo"}
+PACKAGES = ("knotopt", "numpy", "scipy", "networkx", "casadi", "cvxpy", "highspy", "ortools")
+
+
+def doctor(as_json: JsonOption = False) -> None:
+    """Check this installation: versions, solvers (each solves a small program), extras.
+
+    Exit status 1 if a solver does not work. Example: [bold]knotopt doctor[/bold]
+    """
+    import importlib.metadata
+    import importlib.util
+    import platform
+
+    from formulations.probe import probe_solvers
+
+    def version(package: str) -> str:
+        try:
+            return importlib.metadata.version(package)
+        except importlib.metadata.PackageNotFoundError:
+            return "not installed"
+
+    versions = {"python": platform.python_version()} | {name: version(name) for name in PACKAGES}
+    solvers = probe_solvers()
+    extras = {
+        extra: version(package)
+        if importlib.util.find_spec(package)
+        else f"not installed: pip install 'knotopt[{extra}]'"
+        for extra, package in EXTRAS.items()
+    }
+    if as_json:
+        print_json(
+            {
+                "versions": versions,
+                "solvers": [
+                    {"solver": p.solver, "works": p.works, "message": p.message} for p in solvers
+                ],
+                "extras": extras,
+            }
+        )
+    else:
+        print_table(("package", "version"), versions.items())
+        print_table(
+            ("solver", "works", "message"), ((p.solver, p.works, p.message) for p in solvers)
+        )
+        print_table(("extra", "state"), extras.items())
+    if not all(probe.works for probe in solvers):
+        raise typer.Exit(1)

@@ -1,0 +1,65 @@
+"""`knotopt knots`: the knots that can be asked for by name."""
+
+from __future__ import annotations
+
+import fnmatch
+from typing import Annotated
+
+import typer
+
+from knotopt.cli.output import JsonOption, print_json, print_table
+
+
+def knots(
+    pattern: Annotated[str, typer.Argument(help="Names to list, such as '9_*'.")] = "*",
+    crossings: Annotated[
+        int | None, typer.Option(help="Only knots of this crossing number.", min=0)
+    ] = None,
+    arc_index: Annotated[int | None, typer.Option(help="Only knots of this arc index.")] = None,
+    determinant: Annotated[int | None, typer.Option(help="Only knots of this determinant.")] = None,
+    alternating: Annotated[
+        bool | None,
+        typer.Option("--alternating/--non-alternating", help="Only alternating knots, or none."),
+    ] = None,
+    every: Annotated[
+        bool, typer.Option("--all", help="All 12,965 of KnotInfo (the knotinfo extra).")
+    ] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """List the prime knots in the catalogue.
+
+    Example: [bold]knotopt knots --crossings 8 --non-alternating[/bold]
+    """
+    from knotopt.cable.alexander import format_polynomial
+    from knotopt.catalogue.knotinfo import knotinfo_knots
+    from knotopt.catalogue.knots import shipped_knots
+
+    chosen = [
+        knot
+        for knot in (knotinfo_knots() if every else shipped_knots()).values()
+        if fnmatch.fnmatchcase(knot.name, pattern)
+        and crossings in (None, knot.crossing_number)
+        and arc_index in (None, knot.arc_index)
+        and determinant in (None, knot.determinant)
+        and alternating in (None, knot.alternating)
+    ]
+    if as_json:
+        entries = [knot.to_json() for knot in chosen]
+        print_json([{"knot": entry.pop("name"), **entry} for entry in entries])
+        return
+    print_table(
+        ("knot", "crossings", "arc index", "alternating", "determinant", "signature", "Alexander"),
+        (
+            (
+                knot.name,
+                knot.crossing_number,
+                knot.arc_index,
+                knot.alternating,
+                knot.determinant,
+                knot.signature,
+                format_polynomial(knot.alexander),
+            )
+            for knot in chosen
+        ),
+    )
+    print(f"{len(chosen)} knots")

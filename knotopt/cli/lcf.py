@@ -1,0 +1,135 @@
+"""`knotopt lcf`: supports by the Loop Consistency Filter."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from knotopt.cli.output import (
+    JsonOption,
+    KnotArgument,
+    LayeredOption,
+    PlotOption,
+    print_json,
+    print_table,
+)
+from knotopt.errors import CutError
+
+if TYPE_CHECKING:
+    from knotopt.supports.lcf import LcfResult
+
+
+def lcf(
+    knot: KnotArgument,
+    cut: Annotated[
+        str,
+        typer.Option(
+            help="[bold]best[/bold] outer cut, [bold]all[/bold] crossing-free cuts, "
+            "or one: L+ L- R+ R- B+ B- T+ T-, col3+, row5-."
+        ),
+    ] = "best",
+    layered: LayeredOption = False,
+    plot: PlotOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Select support robots by the paper's Loop Consistency Filter.
+
+    Example: [bold]knotopt lcf '7 Var2' --cut best --plot supports.png[/bold]
+    """
+    from knotopt.cable.cut import Cut, crossing_free_cuts
+    from knotopt.catalogue.lookup import find_knot
+    from knotopt.supports.lcf import best_cut, lcf_by_cut
+
+    named = find_knot(knot)
+    if cut == "all":
+        if plot is not None:
+            raise CutError("--plot draws one cut: give --cut best or a cut's name with it")
+        cuts = crossing_free_cuts(named.diagram)
+        results = lcf_by_cut(named.diagram, layered=layered, cuts=cuts).values()
+        rows = [_row(named.name, result) for result in results]
+        if as_json:
+            print_json(rows)
+            return
+        print_table(
+            ("cut", "robots", "reduction", "supports"),
+            (
+                (row["cut"], row["robots_after"], f"{row['reduction_percent']} %", _listed(result))
+                for row, result in zip(rows, results, strict=True)
+            ),
+        )
+        return
+    if cut == "best":
+        result = best_cut(named.diagram, layered=layered)
+    else:
+        parsed = Cut.parse(cut, named.diagram.size)
+        result = lcf_by_cut(named.diagram, layered=layered, cuts=[parsed])[parsed]
+    if plot is not None:
+        from knotopt.plot.figures import lcf_figure, save_figure
+
+        title = f"{named.name}, cut {result.cable.cut}: {result.robots} robots"
+        save_figure(lcf_figure(result, title), plot)
+    if as_json:
+        print_json({**_row(named.name, result), **_details(result)})
+        return
+    from knotopt.plot.text import LEADER, SUPPORT, TAIL, draw_text
+
+    print(draw_text(result.cable, result.supports))
+    print(
+        f"\n{SUPPORT} support robot  {TAIL} lifting robot p1  {LEADER} lifting robot pn, the leader"
+    )
+    print(
+        f"\n{named.name} ({named.source}), cut {result.cable.cut}: {result.robots} robots instead "
+        f"of {result.baseline} ({100 * result.reduction:.1f} % fewer)\nsupports: {_listed(result)}"
+    )
+    print_table(
+        ("region", "crossings", "boundary", "selects", "state"),
+        (
+            (
+                region.kind,
+                " ".join(f"c{index + 1}" for index in region.apexes),
+                " ".join(f"p{index}" for index in region.boundary),
+                " ".join(f"p{index}" for index in result.selected.get(number, ())),
+                region.why,
+            )
+            for number, region in enumerate(result.regions)
+        ),
+    )
+
+
+def _listed(result: LcfResult) -> str:
+    marks = zip(result.supports, result.support_marks, strict=True)
+    return ", ".join(f"p{index} [{column},{row}]" for index, (column, row) in marks)
+
+
+def _row(name: str, result: LcfResult) -> dict[str, Any]:
+    marks = zip(result.supports, result.support_marks, strict=True)
+    return {
+        "knot": name,
+        "cut": str(result.cable.cut),
+        "layered": result.layered,
+        "robots_before": result.baseline,
+        "robots_after": result.robots,
+        "reduction_percent": round(100 * result.reduction, 1),
+        "supports": [[index, *mark] for index, mark in marks],
+    }
+
+
+def _details(result: LcfResult) -> dict[str, Any]:
+    return {
+        "path": [list(mark) for mark in result.cable.path],
+        "crossings": [[c.column, c.row] for c in result.cable.crossings],
+        "regions": [
+            {
+                "kind": str(region.kind),
+                "crossings": [index + 1 for index in region.apexes],
+                "intervals": [list(interval) for interval in region.intervals],
+                "boundary": list(region.boundary),
+                "active": region.is_active,
+                "why": region.why,
+                "selects": list(result.selected.get(number, ())),
+            }
+            for number, region in enumerate(result.regions)
+        ],
+        "layers": result.regions.layers().T[::-1].tolist(),  # as printed: row N first
+    }

@@ -1,0 +1,91 @@
+"""What the commands share: the options that several take, and how results are printed."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+KnotArgument = Annotated[
+    str,
+    typer.Argument(
+        metavar="KNOT",
+        show_default=False,
+        help="A name (8_19), a row of Table I (3, '7 Var1'), 'T(2,7)', or a .json or .csv file.",
+    ),
+]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
+PlotOption = Annotated[
+    Path | None,
+    typer.Option("--plot", metavar="FILE", help="Draw a picture: .png, .pdf or .svg."),
+]
+LayeredOption = Annotated[
+    bool,
+    typer.Option("--layered", help="Also drop supports that lie inside another active region."),
+]
+
+
+UNBROKEN = 1_000_000  # characters
+
+
+def print_json(content: Any) -> None:
+    """Print JSON, indented, with each innermost list on one line."""
+    print(_indented(content, ""))
+
+
+def print_table(columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
+    """Print a table; numbers stand to the right, and only the last column breaks lines."""
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    cells = [[_cell(value) for value in row] for row in rows]
+    for index, column in enumerate(columns):
+        numeric = all(row[index].replace(".", "").lstrip("-").isdigit() for row in cells)
+        table.add_column(
+            column,
+            justify="right" if numeric else "left",
+            no_wrap=index < len(columns) - 1,
+            overflow="fold",
+        )
+    for row in cells:
+        table.add_row(*(Text(cell) for cell in row))  # not markup: cells hold [brackets]
+    # Into a pipe or a file, a row is one line.
+    Console(width=None if sys.stdout.isatty() else UNBROKEN).print(table)
+
+
+def print_note(text: str) -> None:
+    """Print a paragraph, broken between words at the terminal's width."""
+    from rich.console import Console
+
+    Console().print(text, markup=False, highlight=False)
+
+
+def print_facts(facts: Iterable[tuple[str, Any]]) -> None:
+    """Print names and values, one to a line."""
+    listed = list(facts)
+    width = max(len(name) for name, _ in listed)
+    for name, value in listed:
+        print(f"{name:<{width}}  {value}")
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return str(value)
+
+
+def _indented(content: Any, indent: str) -> str:
+    deeper = indent + "  "
+    if isinstance(content, dict) and content:
+        lines = [f"{deeper}{json.dumps(k)}: {_indented(v, deeper)}" for k, v in content.items()]
+        return "{\n" + ",\n".join(lines) + f"\n{indent}}}"
+    if isinstance(content, list) and any(isinstance(entry, dict) for entry in content):
+        return "[\n" + ",\n".join(deeper + _indented(e, deeper) for e in content) + f"\n{indent}]"
+    return json.dumps(content, ensure_ascii=False)

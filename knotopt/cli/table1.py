@@ -1,0 +1,72 @@
+"""`knotopt table1`: the paper's Table I, recomputed."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from knotopt.cli.output import JsonOption, LayeredOption, print_json, print_note, print_table
+
+
+def table1(
+    all_grids: Annotated[
+        bool, typer.Option("--all-grids", help="Also other grids that reproduce a row.")
+    ] = False,
+    layered: LayeredOption = False,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR", help="Write table1.csv, table1.md and a figure for every row there."
+        ),
+    ] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Recompute the paper's Table I: robots before and after reduction by LCF.
+
+    Example: [bold]knotopt table1 --out paper_results[/bold]
+    """
+    from knotopt.table1 import NOTE, compute_table1, table1_csv, table1_markdown
+
+    results = compute_table1(all_grids=all_grids, layered=layered)
+    rows = [row for row, _ in results]
+    written = []
+    if out is not None:
+        from knotopt.files import write_atomically
+        from knotopt.plot.figures import before_after_figure, save_figure
+
+        for number, (row, result) in enumerate(results):
+            nth = sum(other.row == row.row for other in rows[: number + 1])
+            grid = f"_grid{nth}" if nth > 1 else ""
+            path = out / "figures" / f"table1_{row.row.replace(' ', '_')}_{row.knot}{grid}.png"
+            title = f"Table I, row {row.row}: {row.knot}, cut {row.cut}"
+            save_figure(before_after_figure(result, title), path)
+            written.append(path)
+        for name, text in (("table1.csv", table1_csv(rows)), ("table1.md", table1_markdown(rows))):
+            write_atomically(out / name, text)
+            written.append(out / name)
+    if as_json:
+        print_json([{**asdict(row), "supports": [list(s) for s in row.supports]} for row in rows])
+        return
+    print_table(
+        ("row", "knot", "cut", "before", "after", "paper", "reduction", "stairs", "supports"),
+        (
+            (
+                row.row,
+                row.knot,
+                row.cut,
+                row.robots_before,
+                row.robots_after,
+                row.robots_after_paper,
+                f"{row.reduction_percent} %",
+                row.longest_staircase,
+                " ".join(f"p{index}[{c},{r}]" for index, c, r in row.supports),
+            )
+            for row in rows
+        ),
+    )
+    print_note(NOTE)
+    for path in written:
+        print(f"written: {path}")

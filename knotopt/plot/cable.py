@@ -1,0 +1,159 @@
+"""Pictures of a cable, its regions and its robots (matplotlib).
+
+Colours are from the Okabe-Ito palette and differ in lightness and shape as well, so that they can
+be told apart without colour vision and in print.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.colors import ListedColormap
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, Rectangle
+
+from knotopt.cable.cable import BoolArray, Cable, IntArray
+from knotopt.supports.regions import Regions
+
+CABLE_COLOUR = "#222222"
+SUPPORT_COLOUR = "#0072B2"
+LIFTING_COLOUR = "#D55E00"
+LAYER_COLOURS = ("#FDF5DC", "#F9E6AE", "#F3D06B", "#E8B02A")
+PASSIVE_COLOUR = "#AAAAAA"
+GAP = 0.2  # half-width of the gap in an under-crossing strand [grid steps]
+NUMBER_OFFSET = 7  # from a turning point to its number, along each axis [points]
+
+
+def draw_cable(axes: Axes, cable: Cable, *, number: bool = True) -> None:
+    """The cable with gaps at under-crossings and its turning points numbered along the path."""
+    size = cable.diagram.size
+    pieces = []
+    for (c0, r0), (c1, r1) in zip(cable.path, cable.path[1:], strict=False):
+        if c0 == c1:
+            pieces.append([(c0, r0), (c1, r1)])
+            continue
+        under = sorted(x for x, y in cable.crossings.cell.tolist() if y == r0)
+        bounds = [min(c0, c1), *(x + d for x in under for d in (-GAP, GAP)), max(c0, c1)]
+        pieces += [
+            [(left, r0), (right, r0)]
+            for left, right in zip(bounds[0::2], bounds[1::2], strict=True)
+        ]
+    axes.add_collection(
+        LineCollection(pieces, colors=CABLE_COLOUR, linewidths=2, capstyle="round", zorder=3)
+    )
+    if number:
+        for index, (point, away) in enumerate(zip(cable.path, _away(cable), strict=True), 1):
+            axes.annotate(
+                str(index),
+                point,
+                (NUMBER_OFFSET * away[0], NUMBER_OFFSET * away[1]),
+                textcoords="offset points",
+                fontsize=8,
+                ha="center",
+                va="center",
+                color="#444444",
+                zorder=5,
+            )
+    axes.set_xlim(0.2, size + 0.8)
+    axes.set_ylim(0.2, size + 0.8)
+    axes.set_aspect("equal")
+    step = 1 if size <= 20 else 5
+    axes.set_xticks(range(step, size + 1, step))
+    axes.set_yticks(range(step, size + 1, step))
+    axes.tick_params(length=0, labelsize=7, labelcolor="#888888", pad=1)
+    axes.spines[:].set_visible(False)
+
+
+def draw_robots(axes: Axes, cable: Cable, supports: Collection[int]) -> list[Line2D]:
+    """The robots on a cable: supports round, lifting robots diamonds, the leader's filled.
+
+    Returns
+    -------
+    list of Line2D
+        Handles for a legend.
+    """
+    points = cable.points[sorted(index - 1 for index in supports)]
+    handles = []
+    robots: list[tuple[IntArray, str, dict[str, Any]]] = [
+        (points, "support robot", {"marker": "o", "color": SUPPORT_COLOUR}),
+        (cable.points[-1:], "leader $p_n$", {"marker": "D", "color": LIFTING_COLOUR}),
+        (
+            cable.points[:1],
+            "lifting robot $p_1$",
+            {
+                "marker": "D",
+                "markerfacecolor": "white",
+                "markeredgecolor": LIFTING_COLOUR,
+                "markeredgewidth": 2,
+            },
+        ),
+    ]
+    for at, label, style in robots:
+        handles += axes.plot(
+            at[:, 0], at[:, 1], linestyle="", markersize=8, label=label, zorder=4, **style
+        )
+    return handles
+
+
+def draw_regions(axes: Axes, regions: Regions) -> list[Patch]:
+    """Active regions shaded by how many overlap, passive ones hatched.
+
+    A region is drawn as the unit squares that touch an interior cell, which fills it up to its
+    boundary; one without interior cells has nothing to draw.
+    """
+    size = regions.cable.diagram.size
+    layers = np.zeros((size + 1, size + 1), dtype=np.int64)
+    for region in regions:
+        if region.is_active:
+            layers += _squares(region.interior)
+    deepest = int(layers.max())
+    shades = min(deepest, len(LAYER_COLOURS))
+    handles = []
+    if deepest:
+        axes.imshow(
+            np.ma.masked_equal(np.minimum(layers, shades), 0).T,
+            origin="lower",
+            extent=(0, size + 1, 0, size + 1),
+            cmap=ListedColormap(LAYER_COLOURS[:shades]),
+            vmin=0.5,
+            vmax=shades + 0.5,
+            zorder=0,
+        )
+        for layer in range(1, shades + 1):
+            more = "+" if layer == shades < deepest else ""
+            plural = "s" if layer > 1 or more else ""
+            handles.append(
+                Patch(color=LAYER_COLOURS[layer - 1], label=f"{layer}{more} active region{plural}")
+            )
+    passive = [_squares(region.interior) for region in regions if not region.is_active]
+    if np.any(passive):
+        style: dict[str, Any] = {
+            "fill": False,
+            "hatch": "////",
+            "edgecolor": PASSIVE_COLOUR,
+            "linewidth": 0,
+        }
+        for column, row in np.argwhere(np.any(passive, axis=0)).tolist():
+            axes.add_patch(Rectangle((column, row), 1, 1, zorder=1, **style))
+        handles.append(Patch(label="passive region", **style))
+    return handles
+
+
+def _squares(interior: BoolArray) -> BoolArray:
+    """Unit squares [c, c+1] x [r, r+1] that touch an interior cell, shape (N + 1, N + 1)."""
+    padded = np.pad(interior, 1)
+    return padded[1:, 1:] | padded[:-1, 1:] | padded[1:, :-1] | padded[:-1, :-1]
+
+
+def _away(cable: Cable) -> IntArray:
+    """Direction from each turning point to the outside of its corner, (+-1, +-1), shape (n, 2)."""
+    steps = np.sign(np.diff(cable.points, axis=0))
+    none = np.zeros((1, 2), dtype=np.int64)
+    away: IntArray = np.concatenate((none, steps)) - np.concatenate((steps, none))
+    # An end of the cable has one strand only: its number stands off to the side as well.
+    away[[0, -1]] += np.abs(away[[0, -1], ::-1])
+    return away
