@@ -1,0 +1,229 @@
+"""The command line as a user meets it."""
+
+from __future__ import annotations
+
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from formulations import probe
+from knotopt.cli import app
+from knotopt.table1 import NOTE
+
+HEAVY = ("numpy", "scipy", "networkx", "matplotlib", "cvxpy", "ortools", "casadi", "highspy")
+
+
+class Cli:
+    """Runs the command in this process: exit status, output, errors."""
+
+    def __init__(self, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+        self.capsys, self.monkeypatch = capsys, monkeypatch
+
+    def __call__(self, *arguments: object) -> tuple[int, str, str]:
+        self.monkeypatch.setattr(sys, "argv", ["knotopt", *map(str, arguments)])
+        with pytest.raises(SystemExit) as stop:
+            app.main()
+        captured = self.capsys.readouterr()
+        return int(stop.value.code or 0), captured.out, captured.err
+
+    def json(self, *arguments: object) -> Any:
+        status, out, err = self(*arguments, "--json")
+        assert (status, err) == (0, "")
+        return json.loads(out)
+
+
+@pytest.fixture
+def cli(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Cli:
+    return Cli(capsys, monkeypatch)
+
+
+def test_help_names_every_command_and_each_has_an_example(cli: Cli) -> None:
+    status, out, _ = cli("--help")
+    assert status == 0
+    for command in ("knots", "show", "lcf", "table1", "doctor"):
+        assert command in out
+        status, text, _ = cli(command, "--help")
+        assert status == 0 and f"knotopt {command}" in text and "--json" in text
+        assert "Example:" in text
+
+
+def test_help_imports_nothing_heavy() -> None:
+    """What makes `knotopt --help` answer at once."""
+    code = (
+        "import sys; sys.argv = ['knotopt', '--help']\n"
+        "from knotopt.cli.app import main\n"
+        "try: main()\n"
+        "except SystemExit: pass\n"
+        f"print([name for name in {HEAVY} if name in sys.modules], file=sys.stderr)"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stderr.strip() == "[]"
+
+
+def test_version_and_module(cli: Cli) -> None:
+    status, out, _ = cli("--version")
+    assert status == 0 and out.strip()[0].isdigit()
+
+
+def test_table1_prints_the_table_and_the_note(cli: Cli) -> None:
+    status, out, _ = cli("table1")
+    assert status == 0
+    lines = [line.split() for line in out.splitlines()]
+    counts = [line for line in lines if line and line[0] in {"3", "4", "5", "7", "9"}]
+    assert len(counts) == 6
+    assert "5,508" in " ".join(out.split()) and " ".join(NOTE.split()) in " ".join(out.split())
+
+
+def test_table1_json_has_the_columns_of_the_csv(cli: Cli, tmp_path: Path) -> None:
+    rows = cli.json("table1")
+    assert [row["robots_after"] for row in rows] == [5, 5, 5, 7, 8, 6]
+    assert [row["robots_after_paper"] for row in rows] == [5, 5, 5, 7, 8, 6]
+    assert [row["robots_before"] for row in rows] == [10, 12, 14, 18, 18, 22]
+    assert [row["crossings"] for row in rows] == [3, 4, 5, 7, 7, 9]
+    assert rows[5]["reduction_percent"] == 72.7
+    status, out, _ = cli("table1", "--out", tmp_path)
+    assert status == 0 and "written:" in out
+    with (tmp_path / "table1.csv").open(newline="") as stream:
+        reader = csv.DictReader(stream)
+        stored = list(reader)
+        assert reader.fieldnames == list(rows[0])
+    assert [json.loads(row["supports"]) for row in stored] == [row["supports"] for row in rows]
+    markdown = (tmp_path / "table1.md").read_text()
+    assert markdown.count("\n| ") >= 6 and NOTE in markdown
+    figures = sorted(path.name for path in (tmp_path / "figures").iterdir())
+    assert len(figures) == 6 and "table1_7_Var1_7_2.png" in figures
+
+
+def test_table1_over_all_grids_draws_each(cli: Cli, tmp_path: Path) -> None:
+    rows = cli.json("table1", "--all-grids", "--out", tmp_path)
+    assert len(rows) == 15 == len(list((tmp_path / "figures").iterdir()))
+    assert all(row["robots_after"] == row["robots_after_paper"] for row in rows)
+
+
+def test_table1_layered(cli: Cli) -> None:
+    plain, layered = cli.json("table1"), cli.json("table1", "--layered")
+    counts = [(a["robots_after"], b["robots_after"]) for a, b in zip(layered, plain, strict=True)]
+    assert all(a <= b for a, b in counts) and any(a < b for a, b in counts)
+
+
+def test_table1_is_written_the_same_every_time(cli: Cli, tmp_path: Path) -> None:
+    for run in "ab":
+        cli("table1", "--out", tmp_path / run)
+    for path in (tmp_path / "a").rglob("*.*"):
+        assert path.read_bytes() == (tmp_path / "b" / path.relative_to(tmp_path / "a")).read_bytes()
+
+
+def test_lcf(cli: Cli, tmp_path: Path) -> None:
+    status, out, _ = cli("lcf", "3")
+    assert status == 0
+    assert "cut L+: 5 robots instead of 10 (50.0 % fewer)" in out and "p_8 is the first" in out
+    found = cli.json("lcf", "3")
+    assert found["supports"] == [[3, 3, 2], [4, 5, 2], [6, 2, 5]]
+    assert found["robots_after"] == 5 and found["cut"] == "L+"
+    active = [region for region in found["regions"] if region["active"]]
+    assert {k for region in active for k in region["selects"]} == {3, 4, 6}
+    assert all("why" in region for region in found["regions"])
+    assert max(map(max, found["layers"])) == len(active) == 2
+    one = cli.json("lcf", "4", "--cut", "R+")
+    assert one["robots_after"] == 7
+    assert cli.json("lcf", "8_20", "--layered")["layered"] is True
+    picture = tmp_path / "p.svg"
+    assert cli("lcf", "T(3,4)", "--plot", picture)[0] == 0
+    assert picture.read_text().startswith("<?xml")
+
+
+def test_lcf_over_all_cuts(cli: Cli) -> None:
+    rows = cli.json("lcf", "4", "--cut", "all")
+    expected = {"L+": 5, "L-": 7, "R+": 7, "R-": 5, "B+": 5, "B-": 7, "T+": 7, "T-": 5}
+    assert {row["cut"]: row["robots_after"] for row in rows} == expected
+    status, out, _ = cli("lcf", "4", "--cut", "all")
+    assert status == 0 and "T-" in out
+    status, _, err = cli("lcf", "4", "--cut", "all", "--plot", "x.png")
+    assert status == 1 and "--plot draws one cut" in err
+
+
+def test_show_and_its_json_as_a_file(cli: Cli, tmp_path: Path) -> None:
+    status, out, _ = cli("show", "8_19", "--cut", "T-", "--plot", tmp_path / "8_19.pdf")
+    assert status == 0
+    assert "1 - t + t^3 - t^5 + t^6" in out and "◆" in out and "│" in out
+    assert (tmp_path / "8_19.pdf").read_bytes().startswith(b"%PDF")
+    shown = cli.json("show", "8_19")
+    assert shown["determinant"] == 3 and shown["signature"] == -6 and shown["grid_size"] == 7
+    assert len(shown["pd_code"]) == shown["crossings"] == 8
+    path = tmp_path / "again.json"
+    path.write_text(json.dumps(shown))
+    again = cli.json("show", path)
+    assert again["grid"] == shown["grid"] and again["alexander"] == shown["alexander"]
+    assert again["signature"] is None
+
+
+def test_show_of_a_large_diagram_uses_a_simpler_one(cli: Cli, tmp_path: Path) -> None:
+    from knotopt.diagram.families import random_knot, torus_knot
+
+    path = tmp_path / "random.json"
+    path.write_text(json.dumps(random_knot(34, seed=3).marks))
+    shown = cli.json("show", path)
+    assert shown["crossings"] > 120 > 2 * shown["smallest_grid_found"]
+    assert abs(sum(shown["alexander"])) == 1
+    path.write_text(json.dumps(torus_knot(12, 13).marks))
+    assert cli.json("show", path)["alexander"] is None
+    assert "not computed above 120 crossings" in cli("show", path)[1]
+
+
+def test_knots(cli: Cli) -> None:
+    assert len(cli.json("knots")) == 249
+    names = [entry["knot"] for entry in cli.json("knots", "--crossings", 8, "--non-alternating")]
+    assert names == ["8_19", "8_20", "8_21"]
+    assert [k["knot"] for k in cli.json("knots", "--determinant", 1)] == ["10_124", "10_153"]
+    assert [k["knot"] for k in cli.json("knots", "8_*", "--arc-index", 7)] == ["8_19"]
+    assert all(k["alternating"] for k in cli.json("knots", "9_*", "--alternating"))
+    assert len(cli.json("knots", "--all", "--crossings", 11)) == 552
+    status, out, _ = cli("knots", "7_*")
+    assert status == 0 and "7 knots" in out and "3 - 5t + 3t^2" in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("show", "8_22"), "no knot is named '8_22'; nearest: 8_2"),
+        (("lcf", "3_1", "--cut", "Q"), "no cut is named 'Q'"),
+        (("lcf", "3_1", "--cut", "col3+"), "carries 1 crossing"),
+        (("show", "missing.csv"), "cannot read missing.csv"),
+        (("show", "T(3,3)"), "a link of 3 components"),
+        (("show", "3_1", "--plot", "x.gif"), "pictures are written as .png, .pdf, .svg"),
+    ],
+)
+def test_wrong_input_ends_with_one_sentence(
+    cli: Cli, arguments: tuple[str, ...], message: str
+) -> None:
+    status, out, err = cli(*arguments)
+    assert status == 1 and out == ""
+    assert err.startswith("knotopt: ") and message in err and err.count("\n") == 1
+
+
+def test_usage_errors(cli: Cli) -> None:
+    for arguments in (("lcf",), ("nonsense",), ("knots", "--crossings", "many")):
+        status, _, err = cli(*arguments)
+        assert status == 2 and "Usage" in err
+
+
+def test_pictures_without_matplotlib(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    status, _, err = cli("show", "3_1", "--plot", "x.png")
+    assert status == 1 and "pip install 'knotopt[viz]'" in err
+
+
+def test_doctor(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    found = cli.json("doctor")
+    assert [solver["works"] for solver in found["solvers"]] == [True] * 3
+    assert found["versions"]["numpy"][0].isdigit()
+    broken = [probe.ProbeResult("CP-SAT (ortools)", False, "wrong optimum 2")]
+    monkeypatch.setattr(probe, "probe_solvers", lambda: broken)
+    monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
+    status, out, _ = cli("doctor")
+    assert status == 1 and "wrong optimum 2" in out and "pip install 'knotopt[viz]'" in out
