@@ -1,0 +1,91 @@
+"""`python -m benchmarks run [NAME ...]`: measure, and write one JSON line per case.
+
+A run that is interrupted leaves NAME.jsonl.partial and continues from it when started again; the
+results land under their final name when the benchmark is complete.
+"""
+
+from __future__ import annotations
+
+import importlib.metadata
+import json
+import os
+import platform
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.progress import track
+
+from benchmarks import lcf_catalogue, lcf_growth, startup  # noqa: F401 -- they register themselves
+from benchmarks.registry import BENCHMARKS, Benchmark
+
+RESULTS = Path(__file__).parent / "results"
+app = typer.Typer(help=__doc__, no_args_is_help=True, pretty_exceptions_enable=False)
+
+
+@app.command("list")
+def list_benchmarks() -> None:
+    """Name every benchmark and what it measures."""
+    for benchmark in BENCHMARKS.values():
+        print(f"{benchmark.name:15} {benchmark.about}")
+
+
+@app.command()
+def run(
+    names: Annotated[list[str] | None, typer.Argument(help="By default all of them.")] = None,
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = RESULTS,
+    smoke: Annotated[bool, typer.Option("--smoke", help="A few small cases each.")] = False,
+) -> None:
+    """Run benchmarks and write their results as JSON lines."""
+    chosen = names or list(BENCHMARKS)
+    unknown = [name for name in chosen if name not in BENCHMARKS]
+    if unknown:
+        raise typer.BadParameter(f"no benchmark is named {unknown[0]!r}: {', '.join(BENCHMARKS)}")
+    out.mkdir(parents=True, exist_ok=True)
+    for name in chosen:
+        print(f"written: {run_benchmark(BENCHMARKS[name], out, smoke=smoke)}")
+
+
+def run_benchmark(benchmark: Benchmark, out: Path, *, smoke: bool = False) -> Path:
+    """Measure every case not yet in the partial file; return the path of the complete one."""
+    final = out / f"{benchmark.name}.jsonl"
+    partial = final.with_suffix(".jsonl.partial")
+    header = {"benchmark": benchmark.name, "smoke": smoke, "machine": machine_facts()}
+    done = _measured_before(partial, header)
+    with partial.open("a", encoding="utf-8") as stream:
+        if not done:
+            stream.truncate(0)
+            stream.write(json.dumps(header) + "\n")
+        for case in track(list(benchmark.cases(smoke)), benchmark.name):
+            if json.dumps(case) not in done:
+                stream.write(json.dumps({"case": case, "result": benchmark.measure(case)}) + "\n")
+                stream.flush()
+    partial.replace(final)
+    return final
+
+
+def machine_facts() -> dict[str, Any]:
+    """What the times depend on."""
+    packages = ("knotopt", "numpy", "scipy")
+    return {
+        "python": platform.python_version(),
+        "system": f"{platform.system()} {platform.machine()}",
+        "cores": os.cpu_count(),
+        **{package: importlib.metadata.version(package) for package in packages},
+    }
+
+
+def _measured_before(partial: Path, header: dict[str, Any]) -> set[str]:
+    """Cases in a partial file of the same benchmark, machine and versions; a torn line is cut."""
+    if not partial.exists():
+        return set()
+    first, *lines = partial.read_text(encoding="utf-8").split("\n")
+    if first != json.dumps(header):
+        return set()
+    whole = lines[:-1]  # what follows the last line end is empty or torn
+    partial.write_text("\n".join([first, *whole, ""]), encoding="utf-8")
+    return {json.dumps(json.loads(line)["case"]) for line in whole}
+
+
+if __name__ == "__main__":
+    app()

@@ -1,0 +1,164 @@
+"""`python -m benchmarks.plot`: figures and a summary from the results in `benchmarks/results`."""
+
+from __future__ import annotations
+
+import json
+from collections import defaultdict
+from pathlib import Path
+from statistics import mean, median
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from knotopt.files import write_atomically
+from knotopt.plot.figures import PANEL, save_figure
+
+RESULTS = Path(__file__).parent / "results"
+SPEED_AT = 11  # grid size of a typical 9-crossing knot
+FIT_FROM = 40  # growth exponents are fitted to N >= 40, where fixed costs no longer count
+FAMILIES = {"random": ("o", "#0072B2"), "T(p,p+1)": ("s", "#D55E00"), "T(2,N-2)": ("^", "#009E73")}
+
+
+def load(name: str) -> tuple[dict[str, Any], list[dict[str, Any]]]:
+    """Header and records of a benchmark; each record is its case and result in one."""
+    header, *records = (RESULTS / f"{name}.jsonl").read_text(encoding="utf-8").splitlines()
+    rows = [json.loads(record) for record in records]
+    return json.loads(header), [{**row["case"], **row["result"]} for row in rows]
+
+
+def catalogue_summary(rows: list[dict[str, Any]]) -> str:
+    """Table: robots by crossing number."""
+    lines = [
+        "| crossings | knots | cuts | baseline | LCF | LCF, best cut | layered | ms a cut |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
+    groups: dict[str, list[dict[str, Any]]] = defaultdict(list)
+    for row in rows:
+        groups[str(row["crossing_number"])].append(row)
+    for name, group in [*groups.items(), ("all", rows)]:
+        cuts = [robots for row in group for robots in row["robots"].values()]
+        layered = [robots for row in group for robots in row["robots_layered"].values()]
+        best = [min(row["robots"].values()) for row in group]
+        lines.append(
+            f"| {name} | {len(group)} | {len(cuts)} "
+            f"| {mean(row['robots_before'] for row in group):.2f} "
+            f"| {mean(cuts):.2f} | {mean(best):.2f} | {mean(layered):.2f} "
+            f"| {median(row['ms_per_cut'] for row in group):.2f} |"
+        )
+    speed = median(row["times_faster_than_definition"] for row in rows)
+    size = min(SPEED_AT, max(row["grid_size"] for row in rows))
+    milliseconds = median(row["ms_per_cut"] for row in rows if row["grid_size"] == size)
+    note = (
+        f"At N = {size} a cut takes {milliseconds:.2f} ms (median over the knots of that size). "
+        f"Median speed-up over the definition spelled out in plain Python: {speed:.0f} times."
+    )
+    return "\n".join([*lines, "", note])
+
+
+def growth_exponent(rows: list[dict[str, Any]], family: str) -> float:
+    """Slope of log(median seconds) against log N for N >= FIT_FROM."""
+    times = _by_size(rows, family, "seconds")
+    sizes = [size for size in times if size >= FIT_FROM]
+    slope: float = np.polyfit(np.log(sizes), np.log([median(times[s]) for s in sizes]), 1)[0]
+    return slope
+
+
+def growth_summary(rows: list[dict[str, Any]]) -> str:
+    """Table: time, memory and growth exponent by family at the largest size."""
+    lines = [
+        "| family | N | runs | crossings | robots | seconds | MiB | time grows as |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
+    for family in FAMILIES:
+        size = max(_by_size(rows, family, "seconds"))
+        last = [row for row in rows if row["family"] == family and row["size"] == size]
+        lines.append(
+            f"| {family} | {size} | {len(last)} | {median(r['crossings'] for r in last):.0f} "
+            f"| {median(r['robots'] for r in last):.0f} | {max(r['seconds'] for r in last):.2f} "
+            f"| {max(r['mebibytes'] for r in last):.0f} | N^{growth_exponent(rows, family):.1f} |"
+        )
+    note = f"Seconds and MiB are the worst of the runs; exponents are fitted to N >= {FIT_FROM}."
+    return "\n".join([*lines, "", note])
+
+
+def growth_figure(rows: list[dict[str, Any]]) -> Figure:
+    """Time of LCF on one cut against grid size, log-log, one marker a family."""
+    figure = Figure(figsize=(PANEL, PANEL), layout="constrained")
+    axes = figure.subplots()
+    for family, (marker, colour) in FAMILIES.items():
+        times = _by_size(rows, family, "seconds")
+        label = f"{family}: $N^{{{growth_exponent(rows, family):.1f}}}$"
+        axes.plot(
+            list(times),
+            [1e3 * median(values) for values in times.values()],
+            marker=marker,
+            color=colour,
+            markersize=4,
+            label=label,
+        )
+    axes.set(xscale="log", yscale="log", xlabel="grid size N", ylabel="LCF on one cut [ms]")
+    axes.set_xticks([10, 20, 50, 100], labels=["10", "20", "50", "100"])
+    axes.legend(fontsize=7, frameon=False)
+    axes.grid(alpha=0.3)
+    return figure
+
+
+def robots_figure(rows: list[dict[str, Any]]) -> Figure:
+    """Robots by crossing number: baseline, LCF over all cuts, LCF on the best cut."""
+    figure = Figure(figsize=(PANEL, PANEL), layout="constrained")
+    axes = figure.subplots()
+    numbers = sorted({row["crossing_number"] for row in rows})
+    groups = [[row for row in rows if row["crossing_number"] == c] for c in numbers]
+    for label, marker, colour, pick in (
+        ("baseline 2N", "s", "#666666", lambda row: [row["robots_before"]]),
+        ("LCF, all cuts", "o", "#0072B2", lambda row: list(row["robots"].values())),
+        ("LCF layered, all cuts", "D", "#009E73", lambda row: list(row["robots_layered"].values())),
+        ("LCF, best cut", "^", "#D55E00", lambda row: [min(row["robots"].values())]),
+    ):
+        means = [mean(value for row in group for value in pick(row)) for group in groups]
+        axes.plot(numbers, means, marker=marker, color=colour, markersize=5, label=label)
+    axes.set(xlabel="crossing number", ylabel="mean number of robots", ylim=(0, None))
+    axes.legend(fontsize=7, frameon=False)
+    axes.grid(alpha=0.3)
+    return figure
+
+
+def main() -> None:
+    """Write summary.md and the figures beside the results."""
+    _, startup = load("startup")
+    header, catalogue = load("lcf_catalogue")
+    _, growth = load("lcf_growth")
+    answers = [
+        f"`knotopt {' '.join(row['arguments'])}`: {row['seconds']:.2f} s, "
+        f"{row['times_a_bare_python']:.1f} times a bare Python (median of {row['runs']} runs)."
+        for row in startup
+    ]
+    machine = ", ".join(f"{key} {value}" for key, value in header["machine"].items())
+    parts = [
+        "# Benchmarks of LCF",
+        f"One machine, one core: {machine}.",
+        "## 249 prime knots up to 10 crossings, all crossing-free cuts (mean robots)",
+        catalogue_summary(catalogue),
+        "![robots by crossing number](robots.png)",
+        "## Growth with the grid size, cut L+ (random grids: seeds 0 to 4)",
+        growth_summary(growth),
+        "![time against grid size](growth.png)",
+        "## Command line",
+        "\n".join(f"- {answer}" for answer in answers),
+    ]
+    write_atomically(RESULTS / "summary.md", "\n\n".join(parts) + "\n")
+    save_figure(robots_figure(catalogue), RESULTS / "robots.png")
+    save_figure(growth_figure(growth), RESULTS / "growth.png")
+
+
+def _by_size(rows: list[dict[str, Any]], family: str, key: str) -> dict[int, list[float]]:
+    found: dict[int, list[float]] = defaultdict(list)
+    for row in rows:
+        if row["family"] == family:
+            found[row["size"]].append(row[key])
+    return dict(found)
+
+
+if __name__ == "__main__":
+    main()
