@@ -18,6 +18,7 @@ from rich.progress import track
 
 from benchmarks import lcf_catalogue, lcf_growth, startup  # noqa: F401 -- they register themselves
 from benchmarks.registry import BENCHMARKS, Benchmark
+from knotopt.files import write_atomically
 
 RESULTS = Path(__file__).parent / "results"
 app = typer.Typer(help=__doc__, no_args_is_help=True, pretty_exceptions_enable=False)
@@ -83,7 +84,7 @@ def _measured_before(partial: Path, header: dict[str, Any]) -> set[str]:
     if first != json.dumps(header):
         return set()
     whole = lines[:-1]  # what follows the last line end is empty or torn
-    partial.write_text("\n".join([first, *whole, ""]), encoding="utf-8")
+    write_atomically(partial, "\n".join([first, *whole, ""]))
     return {json.dumps(json.loads(line)["case"]) for line in whole}
 
 

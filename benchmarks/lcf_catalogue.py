@@ -6,13 +6,13 @@ import time
 from collections.abc import Iterable
 from statistics import median
 
+from benchmarks.lcf_by_definition import slow_lcf
 from benchmarks.registry import Benchmark, Case, Result, register
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import Cut, crossing_free_cuts
 from knotopt.catalogue.knots import shipped_knots
 from knotopt.diagram.grid import GridDiagram, Mark
 from knotopt.supports.lcf import lcf
-from tests.lcf_by_definition import slow_lcf
 
 REPEATS = 5
 

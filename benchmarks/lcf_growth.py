@@ -6,12 +6,12 @@ import time
 import tracemalloc
 from collections.abc import Iterable
 
+from benchmarks.lcf_by_definition import slow_lcf
 from benchmarks.registry import Benchmark, Case, Result, register
 from knotopt.cable.cable import Cable
 from knotopt.diagram.families import random_knot, torus_knot
 from knotopt.diagram.grid import GridDiagram
 from knotopt.supports.lcf import lcf
-from tests.lcf_by_definition import slow_lcf
 
 SEEDS = range(5)
 REPEATS = 3  # the fastest counts: a busy machine only ever adds time

@@ -78,7 +78,10 @@ def growth_summary(rows: list[dict[str, Any]]) -> str:
             f"| {median(r['robots'] for r in last):.0f} | {max(r['seconds'] for r in last):.2f} "
             f"| {max(r['mebibytes'] for r in last):.0f} | N^{growth_exponent(rows, family):.1f} |"
         )
-    note = f"Seconds and MiB are the worst of the runs; exponents are fitted to N >= {FIT_FROM}."
+    note = (
+        "Seconds and MiB are the worst of the runs; each run counts the fastest of three. MiB is "
+        f"what LCF allocates, without the interpreter. Exponents are fitted to N >= {FIT_FROM}."
+    )
     return "\n".join([*lines, "", note])
 
 

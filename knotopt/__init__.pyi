@@ -10,8 +10,8 @@ from .cable.notation import pd_code as pd_code
 from .cable.staircase import find_staircases as find_staircases
 from .catalogue.knotinfo import knotinfo_knots as knotinfo_knots
 from .catalogue.knots import shipped_knots as shipped_knots
-from .catalogue.knots import table1_grids as table1_grids
 from .catalogue.lookup import find_knot as find_knot
+from .catalogue.table1_grids import table1_grids as table1_grids
 from .diagram.families import random_knot as random_knot
 from .diagram.families import torus_knot as torus_knot
 from .diagram.grid import GridDiagram as GridDiagram

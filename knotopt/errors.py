@@ -25,6 +25,10 @@ class FileFormatError(KnotoptError):
     """A file that cannot be read as a grid diagram: the message names file, line and key."""
 
 
+class OutputError(KnotoptError):
+    """A result that cannot be written where, or in the format, that was asked for."""
+
+
 class MissingExtraError(KnotoptError):
     """An optional dependency is not installed: the message is the line that installs it."""
 

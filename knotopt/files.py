@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
+import uuid
 from pathlib import Path
 
-from knotopt.errors import FileFormatError
+from knotopt.errors import OutputError
 
 
 def write_atomically(path: Path, content: str | bytes) -> None:
@@ -20,17 +21,20 @@ def write_atomically(path: Path, content: str | bytes) -> None:
 
     Raises
     ------
-    FileFormatError
+    OutputError
         The file cannot be written there; an existing one is left as it was.
     """
     data = content.encode() if isinstance(content, str) else content
+    temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex}.tmp")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
         try:
-            temporary.write_bytes(data)
+            with temporary.open("wb") as stream:
+                stream.write(data)
+                stream.flush()
+                os.fsync(stream.fileno())
             temporary.replace(path)
         finally:
             temporary.unlink(missing_ok=True)
     except OSError as error:
-        raise FileFormatError(f"cannot write {path}: {error.strerror}") from error
+        raise OutputError(f"cannot write {path}: {error.strerror}") from error

@@ -9,18 +9,21 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from knotopt.cable.staircase import find_staircases
-from knotopt.catalogue.knots import Table1Grid, table1_grids
-from knotopt.supports.lcf import LcfResult, best_cut
+from knotopt.catalogue.table1_grids import Table1Grid, table1_grids
+from knotopt.supports.lcf import LcfResult, best_cut, format_supports
 
 NOTE = """\
 The paper shows its grids as pictures only, so which knots its rows show is not known: the knots \
 and grids here are ours, named up to mirror image, and agree with the paper in crossings, in \
-robots before and, without the layered option, in robots after reduction. Table I does not single \
+robots before and in robots after reduction. Table I does not single \
 out one reading of LCF. When the reading used here was fixed, 5,508 sets of rules were tried: 176 \
 of them give 5, 5, 5 on 3_1, 4_1 and 5_1, and each of those 176 gives all six rows on some grid. \
 LCF gives no guarantee: its set need neither keep every threaded region open nor be the smallest \
 that does."""
 """What the table does and does not show; printed wherever the table is."""
+
+
+HEADS = ("row", "knot", "cut", "before", "after", "paper", "reduction", "stairs", "supports")
 
 
 @dataclass(frozen=True)
@@ -44,17 +47,13 @@ class Table1Row:
     supports: tuple[tuple[int, int, int], ...]
 
 
-def compute_table1(
-    *, all_grids: bool = False, layered: bool = False
-) -> list[tuple[Table1Row, LcfResult]]:
+def compute_table1(*, all_grids: bool = False) -> list[tuple[Table1Row, LcfResult]]:
     """Every row of Table I with LCF's result on its best outer cut.
 
     Parameters
     ----------
     all_grids : bool
         Also the grids that reproduce a row but are not the preferred one.
-    layered : bool
-        LCF's `layered` option.
 
     Examples
     --------
@@ -62,10 +61,21 @@ def compute_table1(
     [5, 5, 5, 7, 8, 6]
     """
     grids = [grid for grid in table1_grids() if grid.preferred or all_grids]
+    return [(_row(grid, result), result) for grid in grids for result in [best_cut(grid.diagram)]]
+
+
+def display(row: Table1Row) -> list[str]:
+    """The cells of a row under `HEADS`, for people."""
     return [
-        (_row(grid, result), result)
-        for grid in grids
-        for result in [best_cut(grid.diagram, layered=layered)]
+        row.row,
+        row.knot,
+        row.cut,
+        str(row.robots_before),
+        str(row.robots_after),
+        str(row.robots_after_paper),
+        f"{row.reduction_percent:.1f} %",
+        str(row.longest_staircase),
+        format_supports(row.supports),
     ]
 
 
@@ -82,22 +92,8 @@ def table1_csv(rows: list[Table1Row]) -> str:
 
 def table1_markdown(rows: list[Table1Row]) -> str:
     """The rows as a Markdown table with the note."""
-    heads = ("row", "knot", "cut", "before", "after", "paper", "reduction", "staircase", "supports")
-    lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
-    for row in rows:
-        supports = ", ".join(f"p{index} [{c},{r}]" for index, c, r in row.supports)
-        cells = (
-            row.row,
-            row.knot,
-            row.cut,
-            row.robots_before,
-            row.robots_after,
-            row.robots_after_paper,
-            f"{row.reduction_percent:.1f} %",
-            row.longest_staircase,
-            supports,
-        )
-        lines.append("| " + " | ".join(map(str, cells)) + " |")
+    lines = ["| " + " | ".join(HEADS) + " |", "|---" * len(HEADS) + "|"]
+    lines += ["| " + " | ".join(display(row)) + " |" for row in rows]
     return "\n".join(["# Table I, recomputed", "", *lines, "", NOTE, ""])
 
 
@@ -113,12 +109,9 @@ def _row(grid: Table1Grid, result: LcfResult) -> Table1Row:
         robots_before=result.baseline,
         robots_after=result.robots,
         robots_after_paper=grid.robots_after_paper,
-        reduction_percent=round(100 * result.reduction, 1),
+        reduction_percent=result.reduction_percent,
         longest_staircase=longest,
-        supports=tuple(
-            (index, *mark)
-            for index, mark in zip(result.supports, result.support_marks, strict=True)
-        ),
+        supports=result.placed_supports,
     )
 
 

@@ -7,13 +7,14 @@ from itertools import pairwise
 
 import pytest
 from hypothesis import given
-from lcf_by_definition import lay
 from strategies import cables, diagrams
 
+from benchmarks.lcf_by_definition import lay
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import OUTER_CUTS, Cut, crossing_free_cuts
 from knotopt.cable.staircase import find_staircases
-from knotopt.catalogue.knots import shipped_knots, table1_grids
+from knotopt.catalogue.knots import shipped_knots
+from knotopt.catalogue.table1_grids import table1_grids
 from knotopt.diagram.families import torus_knot
 from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import CutError
@@ -104,13 +105,20 @@ def test_a_fifth_crossing_free_segment() -> None:
     [
         ("X+", "no cut is named 'X\\+': expected one of L\\+, L-"),
         ("L", "no cut is named 'L'"),
-        ("col9+", "column 9 is outside the grid of size 5"),
-        ("row0-", "row 0 is outside"),
+        ("col9+", "cut at column 9: outside the grid of size 5"),
+        ("row0-", "cut at row 0: outside"),
     ],
 )
 def test_bad_cut_names(name: str, message: str) -> None:
     with pytest.raises(CutError, match=message):
         Cut.parse(name, 5)
+
+
+def test_bad_cuts() -> None:
+    with pytest.raises(CutError, match="not at 'diagonal'"):
+        Cut("diagonal", 1, "+", 5)  # type: ignore[arg-type]
+    with pytest.raises(CutError, match="direction '0'"):
+        Cut("row", 1, "0", 5)  # type: ignore[arg-type]
 
 
 def test_cuts_with_crossings_and_of_other_grids() -> None:
@@ -151,11 +159,12 @@ def test_staircases_are_maximal_diagonal_runs(cable: Cable) -> None:
         (c, r), length = places[0], len(run)
         assert places == [(c + k, r + step * k) for k in range(length)]
         assert (c - 1, r - step) not in cells and (c + length, r + step * length) not in cells
+    assert [len(run) for run in runs] == sorted((len(run) for run in runs), reverse=True)
     diagonal = sum((c + 1, r + s) in cells for c, r in cells for s in (1, -1))
     assert diagonal == sum(len(run) - 1 for run in runs)
 
 
-def test_a_staircase_that_is_no_braid() -> None:
+def test_a_staircase_that_is_no_twist() -> None:
     """In the 3-strand braid of T(3,4) neighbours on the diagonal are not joined twice."""
-    assert not find_staircases(Cable(torus_knot(3, 4), "L+"), 2)[0].is_braid
-    assert find_staircases(Cable(torus_knot(2, 7), "L+"))[0].is_braid
+    assert not find_staircases(Cable(torus_knot(3, 4), "L+"), 2)[0].is_twist
+    assert find_staircases(Cable(torus_knot(2, 7), "L+"))[0].is_twist

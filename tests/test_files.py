@@ -12,7 +12,7 @@ from strategies import diagrams
 from knotopt.diagram.families import torus_knot
 from knotopt.diagram.grid import GridDiagram
 from knotopt.diagram.reading import read_grid
-from knotopt.errors import FileFormatError
+from knotopt.errors import FileFormatError, OutputError
 from knotopt.files import write_atomically
 
 
@@ -59,6 +59,9 @@ def test_every_form_is_read_back(tmp_path: Path, diagram: GridDiagram) -> None:
         ("a.json", "[[1, 0], [0, 1], [1, 1]]", r"a.json: mark \[1, 0\] is outside"),
         ("a.json", "[]", "no marks"),
         ("a.json", '{"matrix": []}', "at least 2 x 2"),
+        ("a.json", "[" * 100_000, "not the JSON of a grid diagram"),
+        ("a.json", "[[" + "1" * 5000 + "]]", "not the JSON of a grid diagram"),
+        ("a.csv", "1" * 200_000, "not the CSV of a grid diagram"),
         ("a.csv", "1,-1\n-1,x\n", "a.csv: line 2: .*'x'; expected integers"),
         ("a.csv", "column,row\n1,1.5\n", "line 2"),
         ("a.csv", "1,-1,0\n-1,1\n", "not square"),
@@ -88,13 +91,11 @@ def test_writing_is_all_or_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     write_atomically(path, "first")
     assert path.read_text() == "first"
 
-    def full_disk(self: Path, data: bytes) -> int:
-        with self.open("wb") as stream:
-            stream.write(data[:2])
+    def full_disk(_descriptor: int) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(Path, "write_bytes", full_disk)
-    with pytest.raises(FileFormatError, match=r"cannot write .*result.csv: No space left"):
+    monkeypatch.setattr("os.fsync", full_disk)
+    with pytest.raises(OutputError, match=r"cannot write .*result.csv: No space left"):
         write_atomically(path, b"second")
     assert path.read_text() == "first"
     assert [entry.name for entry in path.parent.iterdir()] == ["result.csv"]
@@ -102,7 +103,7 @@ def test_writing_is_all_or_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 
 def test_writing_where_a_file_is_in_the_way(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
-    with pytest.raises(FileFormatError, match="cannot write"):
+    with pytest.raises(OutputError, match="cannot write"):
         write_atomically(tmp_path / "file" / "result.csv", "")
 
 

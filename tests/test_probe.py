@@ -40,11 +40,8 @@ def test_cvxpy_and_cp_sat_share_a_process_in_either_import_order(order: str) -> 
     assert run.stdout.strip() == "True", run.stderr
 
 
-def test_a_broken_solver_is_named_with_what_it_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sys, "executable", str(Path(sys.executable).with_name("no-python")))
-    with pytest.raises(FileNotFoundError):
-        probe.probe_solvers(["IPOPT (casadi)"])
-    with pytest.raises(KeyError):
+def test_an_unknown_solver_has_no_probe() -> None:
+    with pytest.raises(KeyError, match="GLPK"):
         probe.probe_solvers(["GLPK"])
 
 

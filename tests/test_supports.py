@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from lcf_by_definition import slow_lcf, slow_regions
 from strategies import cables
 
+from benchmarks.lcf_by_definition import slow_lcf, slow_regions
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import crossing_free_cuts
 from knotopt.catalogue.knots import shipped_knots
@@ -68,10 +68,7 @@ def test_table1_grids(entry: dict[str, Any]) -> None:
     cable = Cable(diagram, entry["cut"])
     assert [list(mark) for mark in cable.path] == entry["path"]
     result = lcf(cable)
-    supports = [
-        [index, *mark] for index, mark in zip(result.supports, result.support_marks, strict=True)
-    ]
-    assert supports == entry["lcf_supports"]
+    assert [list(support) for support in result.placed_supports] == entry["lcf_supports"]
     assert result.baseline == entry["robots_before"]
     by_cut = {str(cut): result.robots for cut, result in lcf_by_cut(diagram).items()}
     assert by_cut == entry["lcf_robots_by_cut"]
@@ -124,4 +121,16 @@ def test_layered_only_drops_points_inside_active_regions(cable: Cable) -> None:
     for dropped in set(plain.supports) - set(layered.supports):
         column, row = cable.path[dropped - 1]
         assert any(region.interior[column - 1, row - 1] for region in active)
-    assert plain.reduction == pytest.approx(1 - plain.robots / plain.baseline)
+    assert plain.reduction_percent == pytest.approx(
+        100 - 100 * plain.robots / plain.baseline, abs=0.051
+    )
+
+
+def test_results_are_values() -> None:
+    """Equal inputs give equal, hashable results, and no array of theirs can be written to."""
+    first, second = (lcf(Cable(torus_knot(2, 5), "R+")) for _ in range(2))
+    assert first == second and len({first, second}) == 1
+    boundaries = first.regions.boundaries
+    for array in (first.regions.packed_interiors, boundaries.a, boundaries.apexes):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0

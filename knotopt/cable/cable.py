@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from knotopt.cable.cut import Cut, crossing_cells, crossing_free_cuts
+from knotopt.cable.cut import Cut, crossing_free_cuts
 from knotopt.diagram.grid import GridDiagram, Mark
 from knotopt.errors import CutError
 
@@ -52,7 +52,7 @@ class Arc:
     turning_points: tuple[int, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Crossings:
     """All C crossings of a cable as arrays, in the order of their first visits.
 
@@ -124,8 +124,7 @@ class Cable:
         object.__setattr__(self, "diagram", diagram)
         object.__setattr__(self, "cut", cut)
         if not cut.is_outer:
-            along = crossing_cells(diagram)
-            line = along[cut.index - 1] if cut.axis == "column" else along[:, cut.index - 1]
+            line = diagram.crossing_cells.take(cut.index - 1, axis=int(cut.axis == "row"))
             if line.any():
                 free = ", ".join(str(free) for free in crossing_free_cuts(diagram))
                 raise CutError(
@@ -150,13 +149,13 @@ class Cable:
     @cached_property
     def points(self) -> IntArray:
         """The path as an array, shape (n, 2) [grid steps]."""
-        return _frozen(np.array(self.path, dtype=np.int64))
+        return frozen(np.array(self.path, dtype=np.int64))
 
     @cached_property
     def times(self) -> IntArray:
         """Time of each turning point, shape (n,): arc length from p_1 [grid steps]."""
         steps = np.abs(np.diff(self.points, axis=0)).sum(axis=1)
-        return _frozen(np.concatenate(([0], np.cumsum(steps))))
+        return frozen(np.concatenate(([0], np.cumsum(steps))))
 
     @property
     def length(self) -> int:
@@ -169,12 +168,12 @@ class Cable:
         steps = np.diff(self.points, axis=0)
         lengths = np.diff(self.times)
         units = np.repeat(np.sign(steps), lengths, axis=0)
-        return _frozen(self.points[0] + np.concatenate(([[0, 0]], np.cumsum(units, axis=0))))
+        return frozen(self.points[0] + np.concatenate(([[0, 0]], np.cumsum(units, axis=0))))
 
     @cached_property
     def crossings(self) -> Crossings:
         """Every crossing with both visits, ordered by first visit."""
-        cell = np.argwhere(crossing_cells(self.diagram)) + 1
+        cell = np.argwhere(self.diagram.crossing_cells) + 1
         start, times, directions = (
             self.points[:-1],
             self.times,
@@ -193,11 +192,11 @@ class Cable:
         order = np.argsort(first)
         sign = -directions[over, 1] * directions[under, 0]
         return Crossings(
-            _frozen(cell[order]),
-            _frozen(first[order]),
-            _frozen(np.maximum(over_time, under_time)[order]),
-            _frozen((over_time < under_time)[order]),
-            _frozen(sign[order]),
+            frozen(cell[order]),
+            frozen(first[order]),
+            frozen(np.maximum(over_time, under_time)[order]),
+            frozen((over_time < under_time)[order]),
+            frozen(sign[order]),
         )
 
     @cached_property
@@ -208,7 +207,7 @@ class Cable:
         index = np.tile(np.arange(len(crossings)), 2)
         over = np.concatenate((crossings.first_over, ~crossings.first_over))
         order = np.argsort(times)
-        return _frozen(times[order]), _frozen(index[order]), _frozen(over[order])
+        return frozen(times[order]), frozen(index[order]), frozen(over[order])
 
     @cached_property
     def arcs(self) -> tuple[Arc, ...]:
@@ -229,6 +228,7 @@ class Cable:
         )
 
 
-def _frozen(array: NDArray[Any]) -> NDArray[Any]:
+def frozen(array: NDArray[Any]) -> NDArray[Any]:
+    """The array itself, made read-only."""
     array.setflags(write=False)
     return array

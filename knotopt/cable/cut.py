@@ -12,9 +12,6 @@ import re
 from dataclasses import dataclass
 from typing import Literal
 
-import numpy as np
-from numpy.typing import NDArray
-
 from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import CutError
 
@@ -49,6 +46,15 @@ class Cut:
     direction: Literal["+", "-"]
     size: int
 
+    def __post_init__(self) -> None:
+        if self.axis not in ("column", "row") or self.direction not in ("+", "-"):
+            raise CutError(
+                f"a cut is at a column or row, in direction + or -, "
+                f"not at {self.axis!r} in direction {self.direction!r}"
+            )
+        if not 1 <= self.index <= self.size:
+            raise CutError(f"cut at {self.axis} {self.index}: outside the grid of size {self.size}")
+
     @classmethod
     def parse(cls, name: str, size: int) -> Cut:
         """Cut by its name: L+ ... T-, or col3+, row5-.
@@ -71,8 +77,6 @@ class Cut:
         else:
             axis = "column" if line.lower() == "col" else "row"
             index = int(number)
-        if not 1 <= index <= size:
-            raise CutError(f"cut {name!r}: {axis} {index} is outside the grid of size {size}")
         return cls(
             "column" if axis == "column" else "row", index, "+" if sign == "+" else "-", size
         )
@@ -103,7 +107,7 @@ def crossing_free_cuts(diagram: GridDiagram) -> tuple[Cut, ...]:
     >>> [str(cut) for cut in crossing_free_cuts(torus_knot(2, 3))]
     ['L+', 'L-', 'R+', 'R-', 'B+', 'B-', 'T+', 'T-']
     """
-    crossed = crossing_cells(diagram)
+    crossed = diagram.crossing_cells
     size = diagram.size
     inner = [
         Cut.parse(f"{line}{index}{direction}", size)
@@ -113,16 +117,3 @@ def crossing_free_cuts(diagram: GridDiagram) -> tuple[Cut, ...]:
         for direction in "+-"
     ]
     return (*outer_cuts(diagram), *inner)
-
-
-def crossing_cells(diagram: GridDiagram) -> NDArray[np.bool_]:
-    """Where a column's segment crosses a row's, shape (N, N), indexed [column - 1, row - 1]."""
-    lines = np.arange(1, diagram.size + 1)
-    marks = np.array(diagram.marks)
-    low_row, high_row = marks[0::2, 1], marks[1::2, 1]
-    by_row = marks[np.lexsort((marks[:, 0], marks[:, 1])), 0]
-    low_column, high_column = by_row[0::2], by_row[1::2]
-    column_passes = (low_row[:, None] < lines) & (lines < high_row[:, None])
-    row_passes = (low_column < lines[:, None]) & (lines[:, None] < high_column)
-    crossed: NDArray[np.bool_] = column_passes & row_passes
-    return crossed

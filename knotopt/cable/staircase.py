@@ -25,14 +25,14 @@ class Staircase:
         Indices into `cable.crossings`, by increasing column; neighbours are one column and one
         row apart.
     direction : "rising" or "falling"
-    is_braid : bool
-        Whether consecutive crossings are joined by two arcs of the cable: two strands that wind
-        around each other. Else the run is a coincidence of the drawing.
+    is_twist : bool
+        Whether the run is (part of) a twist region: consecutive crossings are joined by two arcs
+        of the cable, so two strands wind around each other, as in Fig. 7.
     """
 
     crossings: tuple[int, ...]
     direction: Literal["rising", "falling"]
-    is_braid: bool
+    is_twist: bool
 
     def __len__(self) -> int:
         return len(self.crossings)
@@ -45,7 +45,7 @@ def find_staircases(cable: Cable, min_length: int = 3) -> tuple[Staircase, ...]:
     --------
     >>> from knotopt.diagram.families import torus_knot
     >>> find_staircases(Cable(torus_knot(2, 5), "L+"))
-    (Staircase(crossings=(4, 3, 2, 1), direction='falling', is_braid=True),)
+    (Staircase(crossings=(4, 3, 2, 1), direction='falling', is_twist=True),)
     """
     at = {(c.column, c.row): i for i, c in enumerate(cable.crossings)}
     _, index, _ = cable.visits
@@ -65,6 +65,6 @@ def find_staircases(cable: Cable, min_length: int = 3) -> tuple[Staircase, ...]:
             while (column + len(run), row + step * len(run)) in at:
                 run.append(at[column + len(run), row + step * len(run)])
             if len(run) >= min_length:
-                braid = all(joined.get(frozenset(pair), 0) >= 2 for pair in pairwise(run))
-                found.append(Staircase(tuple(run), direction, braid))
+                twist = all(joined.get(frozenset(pair), 0) >= 2 for pair in pairwise(run))
+                found.append(Staircase(tuple(run), direction, twist))
     return tuple(sorted(found, key=lambda staircase: -len(staircase)))

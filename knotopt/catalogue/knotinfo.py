@@ -2,9 +2,6 @@
 
 The package `database_knotinfo` holds 100 MB of CSV that takes seconds to parse; what knotopt needs
 of it is parsed once and kept in the user's cache folder.
-
-Run as a module, this writes the shipped catalogue anew:
-`python -m knotopt.catalogue.knotinfo knotopt/catalogue/prime_knots.json`.
 """
 
 from __future__ import annotations
@@ -13,15 +10,14 @@ import importlib.metadata
 import importlib.util
 import json
 import re
-import sys
+import warnings
 from functools import cache
-from pathlib import Path
 
 import platformdirs
 
 from knotopt.catalogue.knots import PrimeKnot
 from knotopt.diagram.grid import Mark
-from knotopt.errors import FileFormatError, MissingExtraError
+from knotopt.errors import MissingExtraError, OutputError
 from knotopt.files import write_atomically
 
 _PACKAGE = "database_knotinfo"
@@ -54,8 +50,8 @@ def knotinfo_knots() -> dict[str, PrimeKnot]:
         knots = _parse()
         try:
             write_atomically(path, to_json_lines(knots))
-        except FileFormatError as error:
-            print(f"knotopt: KnotInfo's table is not cached: {error}", file=sys.stderr)
+        except OutputError as error:
+            warnings.warn(f"KnotInfo's table is not cached: {error}", stacklevel=2)
     return {knot.name: knot for knot in knots}
 
 
@@ -67,8 +63,7 @@ def to_json_lines(knots: list[PrimeKnot]) -> str:
 def _parse() -> list[PrimeKnot]:
     from database_knotinfo import link_list
 
-    header, *rows = link_list()
-    assert header["name"] == "Name"
+    _, *rows = link_list()  # first the column names
     return [
         PrimeKnot(
             name=row["name"],
@@ -103,9 +98,3 @@ def _coefficients(polynomial: str) -> tuple[int, ...]:
         powers[exponent] = int(sign + (factor or "1"))
     coefficients = [powers.get(k, 0) for k in range(min(powers), max(powers) + 1)]
     return tuple(c if coefficients[-1] > 0 else -c for c in coefficients)
-
-
-if __name__ == "__main__":
-    shipped = [k for k in knotinfo_knots().values() if k.crossing_number <= SHIPPED_CROSSINGS]
-    write_atomically(Path(sys.argv[1]), to_json_lines(shipped))
-    print(f"{len(shipped)} knots written to {sys.argv[1]}")

@@ -1,4 +1,4 @@
-"""The shipped catalogue: all 249 prime knots up to 10 crossings, and the grids of Table I.
+"""The shipped catalogue: all 249 prime knots up to 10 crossings.
 
 Facts from KnotInfo (Livingston and Moore, https://knotinfo.org), with the grids' rows reversed so
 that columns over rows gives KnotInfo's chirality.
@@ -70,26 +70,6 @@ class PrimeKnot:
         )
 
 
-@dataclass(frozen=True)
-class Table1Grid:
-    """A grid for a row of the paper's Table I.
-
-    The paper shows its grids as pictures only, so which knots its rows show is not known; the knot
-    is named up to mirror image. `preferred` marks the one grid per row that the table uses.
-    """
-
-    row: str
-    knot: str
-    preferred: bool
-    robots_after_paper: int
-    marks: tuple[Mark, ...]
-
-    @property
-    def diagram(self) -> GridDiagram:
-        """The row's grid diagram."""
-        return GridDiagram.from_marks(self.marks)
-
-
 @cache
 def shipped_knots() -> dict[str, PrimeKnot]:
     """The 249 prime knots up to 10 crossings by name, in KnotInfo's order.
@@ -100,25 +80,11 @@ def shipped_knots() -> dict[str, PrimeKnot]:
     >>> len(knots), knots["8_19"].arc_index, knots["4_1"].alexander
     (249, 7, (1, -3, 1))
     """
-    return {entry["name"]: PrimeKnot.from_json(entry) for entry in _data("prime_knots.json")}
+    return {entry["name"]: PrimeKnot.from_json(entry) for entry in shipped_json("prime_knots.json")}
 
 
-@cache
-def table1_grids() -> tuple[Table1Grid, ...]:
-    """The grids for the six rows of Table I, in the table's order, preferred ones first."""
-    return tuple(
-        Table1Grid(
-            entry["row"],
-            entry["knot"],
-            entry["preferred"],
-            entry["robots_after_paper"],
-            tuple((column, row) for column, row in entry["grid"]),
-        )
-        for entry in _data("table1_grids.json")
-    )
-
-
-def _data(name: str) -> list[dict[str, Any]]:
+def shipped_json(name: str) -> list[dict[str, Any]]:
+    """The entries of a JSON file that ships beside this one."""
     entries: list[dict[str, Any]] = json.loads(
         files("knotopt.catalogue").joinpath(name).read_text(encoding="utf-8")
     )

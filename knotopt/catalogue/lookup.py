@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from knotopt.catalogue.knotinfo import SHIPPED_CROSSINGS, is_installed, knotinfo_knots
-from knotopt.catalogue.knots import PrimeKnot, shipped_knots, table1_grids
+from knotopt.catalogue.knots import PrimeKnot, shipped_knots
+from knotopt.catalogue.table1_grids import table1_grids
 from knotopt.diagram.families import torus_knot
 from knotopt.diagram.grid import GridDiagram
 from knotopt.diagram.reading import read_grid
@@ -67,7 +68,7 @@ def find_knot(text: str) -> NamedDiagram:
     """
     if Path(text).suffix.lower() in (".json", ".csv"):
         return NamedDiagram(Path(text).name, read_grid(text), f"file {text}")
-    torus = re.fullmatch(r"\s*T\s*\(?\s*(-?\d+)\s*,\s*(-?\d+)\s*\)?\s*", text, re.IGNORECASE)
+    torus = re.fullmatch(r"\s*T\(\s*(-?\d{1,18})\s*,\s*(-?\d{1,18})\s*\)\s*", text, re.IGNORECASE)
     if torus:
         p, q = (int(number) for number in torus.groups())
         return NamedDiagram(f"T({p},{q})", torus_knot(p, q), "torus knot")
@@ -79,22 +80,14 @@ def find_knot(text: str) -> NamedDiagram:
 
 
 def _by_name(text: str) -> NamedDiagram:
-    rolfsen = re.fullmatch(r"k?(\d+)_(\d+)", text)
-    hoste_thistlethwaite = re.fullmatch(r"k?(\d+)([an])_?(\d+)", text)
-    if hoste_thistlethwaite:
-        crossings, kind, number = hoste_thistlethwaite.groups()
-        name = f"{crossings}{kind}_{number}"
-    elif rolfsen:
-        crossings, number = rolfsen.groups()
-        name = f"{crossings}_{number}"
-    else:
-        crossings, name = "0", text
+    name = re.sub(r"k?(\d+)([an])_?(\d+)", r"\1\2_\3", text)  # SnapPy's K11a1 is KnotInfo's 11a_1
+    crossings = re.match(r"(\d{1,3})[an]?_", name)
     knots = shipped_knots()
     if name not in knots and is_installed():
         knots = knotinfo_knots()
     if name in knots:
         return NamedDiagram(name, knots[name].diagram, "KnotInfo", knots[name])
-    if SHIPPED_CROSSINGS < int(crossings) <= 13 and not is_installed():
+    if crossings and SHIPPED_CROSSINGS < int(crossings[1]) <= 13 and not is_installed():
         raise MissingExtraError("database_knotinfo", "knotinfo", f"knot {name!r}")
     known = [*knots, *dict.fromkeys(grid.row for grid in table1_grids())]
     near = difflib.get_close_matches(name, known, n=3, cutoff=0.3)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import sys
 from typing import Annotated
 
@@ -25,7 +26,6 @@ app = typer.Typer(
     "KNOT is a name (8_19), a row of Table I (3, '7 Var1'), a torus knot 'T(2,7)', "
     "or a .json or .csv file with a grid diagram.",
     no_args_is_help=True,
-    add_completion=True,
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
 )
@@ -52,8 +52,11 @@ app.command("doctor")(doctor.doctor)
 
 def main() -> None:
     """Run the command line; wrong input ends with one sentence and exit status 1."""
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="replace")  # drawings on a terminal that knows ASCII only
     try:
         app()
     except KnotoptError as error:
-        print(f"knotopt: {error}", file=sys.stderr)
-        sys.exit(1)
+        sys.exit(f"knotopt: {error}")
+    except OSError as error:  # files are written elsewhere: this is the output, on a full disk
+        sys.exit(f"knotopt: cannot print the result: {error.strerror}")

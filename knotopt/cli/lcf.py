@@ -14,7 +14,6 @@ from knotopt.cli.output import (
     print_json,
     print_table,
 )
-from knotopt.errors import CutError
 
 if TYPE_CHECKING:
     from knotopt.supports.lcf import LcfResult
@@ -39,12 +38,14 @@ def lcf(
     """
     from knotopt.cable.cut import Cut, crossing_free_cuts
     from knotopt.catalogue.lookup import find_knot
-    from knotopt.supports.lcf import best_cut, lcf_by_cut
+    from knotopt.supports.lcf import best_cut, format_supports, lcf_by_cut
 
     named = find_knot(knot)
     if cut == "all":
         if plot is not None:
-            raise CutError("--plot draws one cut: give --cut best or a cut's name with it")
+            raise typer.BadParameter(
+                "draws one cut: give --cut best or a cut's name", param_hint="--plot"
+            )
         cuts = crossing_free_cuts(named.diagram)
         results = lcf_by_cut(named.diagram, layered=layered, cuts=cuts).values()
         rows = [_row(named.name, result) for result in results]
@@ -54,7 +55,12 @@ def lcf(
         print_table(
             ("cut", "robots", "reduction", "supports"),
             (
-                (row["cut"], row["robots_after"], f"{row['reduction_percent']} %", _listed(result))
+                (
+                    row["cut"],
+                    row["robots_after"],
+                    f"{row['reduction_percent']} %",
+                    format_supports(result.placed_supports),
+                )
                 for row, result in zip(rows, results, strict=True)
             ),
         )
@@ -72,7 +78,7 @@ def lcf(
     if as_json:
         print_json({**_row(named.name, result), **_details(result)})
         return
-    from knotopt.plot.text import LEADER, SUPPORT, TAIL, draw_text
+    from knotopt.cli.drawing import LEADER, SUPPORT, TAIL, draw_text
 
     print(draw_text(result.cable, result.supports))
     print(
@@ -80,8 +86,9 @@ def lcf(
     )
     print(
         f"\n{named.name} ({named.source}), cut {result.cable.cut}: {result.robots} robots instead "
-        f"of {result.baseline} ({100 * result.reduction:.1f} % fewer)\nsupports: {_listed(result)}"
+        f"of {result.baseline} ({result.reduction_percent} % fewer)"
     )
+    print(f"supports: {format_supports(result.placed_supports)}")
     print_table(
         ("region", "crossings", "boundary", "selects", "state"),
         (
@@ -89,7 +96,7 @@ def lcf(
                 region.kind,
                 " ".join(f"c{index + 1}" for index in region.apexes),
                 " ".join(f"p{index}" for index in region.boundary),
-                " ".join(f"p{index}" for index in result.selected.get(number, ())),
+                " ".join(f"p{index}" for index in result.selected[number]),
                 region.why,
             )
             for number, region in enumerate(result.regions)
@@ -97,21 +104,15 @@ def lcf(
     )
 
 
-def _listed(result: LcfResult) -> str:
-    marks = zip(result.supports, result.support_marks, strict=True)
-    return ", ".join(f"p{index} [{column},{row}]" for index, (column, row) in marks)
-
-
 def _row(name: str, result: LcfResult) -> dict[str, Any]:
-    marks = zip(result.supports, result.support_marks, strict=True)
     return {
         "knot": name,
         "cut": str(result.cable.cut),
         "layered": result.layered,
         "robots_before": result.baseline,
         "robots_after": result.robots,
-        "reduction_percent": round(100 * result.reduction, 1),
-        "supports": [[index, *mark] for index, mark in marks],
+        "reduction_percent": result.reduction_percent,
+        "supports": [list(support) for support in result.placed_supports],
     }
 
 
@@ -127,7 +128,7 @@ def _details(result: LcfResult) -> dict[str, Any]:
                 "boundary": list(region.boundary),
                 "active": region.is_active,
                 "why": region.why,
-                "selects": list(result.selected.get(number, ())),
+                "selects": list(result.selected[number]),
             }
             for number, region in enumerate(result.regions)
         ],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import Annotated
 
 import typer
@@ -53,6 +54,16 @@ def show(
                 "turning_points": len(cable.path),
                 "length": cable.length,
                 "crossings": len(crossings),
+                "crossing_list": [asdict(crossing) for crossing in crossings],
+                "arcs": [
+                    {
+                        "crossings": [None if k is None else k + 1 for k in arc.crossings],
+                        "start": arc.start,
+                        "end": arc.end,
+                        "turning_points": list(arc.turning_points),
+                    }
+                    for arc in cable.arcs
+                ],
                 "writhe": int(crossings.sign.sum()),
                 "alexander": None if polynomial is None else list(polynomial),
                 "determinant": None if polynomial is None else determinant(polynomial),
@@ -64,7 +75,7 @@ def show(
                     {
                         "crossings": [index + 1 for index in run.crossings],
                         "direction": run.direction,
-                        "is_braid": run.is_braid,
+                        "is_twist": run.is_twist,
                     }
                     for run in staircases
                 ],
@@ -73,7 +84,7 @@ def show(
             }
         )
         return
-    from knotopt.plot.text import draw_text
+    from knotopt.cli.drawing import draw_text
 
     print(draw_text(cable), end="\n\n")
     unknown = f"not computed above {MAX_CROSSINGS} crossings"
@@ -86,6 +97,10 @@ def show(
             ("cable length", f"{cable.length} grid steps"),
             ("crossings", f"{len(crossings)}, writhe {int(crossings.sign.sum())}"),
             ("Alexander", unknown if polynomial is None else format_polynomial(polynomial)),
+            (
+                "signature",
+                named.prime_knot.signature if named.prime_knot else "not in the catalogue",
+            ),
             ("determinant", unknown if polynomial is None else determinant(polynomial)),
             ("Gauss code", " ".join(map(str, gauss_code(cable)))),
             ("PD code", " ".join(map(str, pd_code(cable)))),
@@ -93,8 +108,7 @@ def show(
             (
                 "staircases",
                 "; ".join(
-                    f"{len(run)} crossings {run.direction}"
-                    + ("" if run.is_braid else " (no braid)")
+                    f"{len(run)} crossings {run.direction}" + (" (twist)" if run.is_twist else "")
                     for run in staircases
                 )
                 or "none of 3 crossings or more",

@@ -8,14 +8,13 @@ from typing import Annotated
 
 import typer
 
-from knotopt.cli.output import JsonOption, LayeredOption, print_json, print_note, print_table
+from knotopt.cli.output import JsonOption, print_json, print_note, print_table
 
 
 def table1(
     all_grids: Annotated[
-        bool, typer.Option("--all-grids", help="Also other grids that reproduce a row.")
+        bool, typer.Option("--all-grids", help="Print also the other grids that reproduce a row.")
     ] = False,
-    layered: LayeredOption = False,
     out: Annotated[
         Path | None,
         typer.Option(
@@ -28,19 +27,28 @@ def table1(
 
     Example: [bold]knotopt table1 --out paper_results[/bold]
     """
-    from knotopt.table1 import NOTE, compute_table1, table1_csv, table1_markdown
+    from knotopt.table1 import (
+        HEADS,
+        NOTE,
+        compute_table1,
+        display,
+        table1_csv,
+        table1_markdown,
+    )
 
-    results = compute_table1(all_grids=all_grids, layered=layered)
+    results = compute_table1(all_grids=all_grids)
     rows = [row for row, _ in results]
     written = []
     if out is not None:
+        if all_grids:
+            raise typer.BadParameter(
+                "writes the six rows: leave out --all-grids", param_hint="--out"
+            )
         from knotopt.files import write_atomically
         from knotopt.plot.figures import before_after_figure, save_figure
 
-        for number, (row, result) in enumerate(results):
-            nth = sum(other.row == row.row for other in rows[: number + 1])
-            grid = f"_grid{nth}" if nth > 1 else ""
-            path = out / "figures" / f"table1_{row.row.replace(' ', '_')}_{row.knot}{grid}.png"
+        for row, result in results:
+            path = out / "figures" / f"table1_{row.row.replace(' ', '_')}_{row.knot}.png"
             title = f"Table I, row {row.row}: {row.knot}, cut {row.cut}"
             save_figure(before_after_figure(result, title), path)
             written.append(path)
@@ -50,23 +58,7 @@ def table1(
     if as_json:
         print_json([{**asdict(row), "supports": [list(s) for s in row.supports]} for row in rows])
         return
-    print_table(
-        ("row", "knot", "cut", "before", "after", "paper", "reduction", "stairs", "supports"),
-        (
-            (
-                row.row,
-                row.knot,
-                row.cut,
-                row.robots_before,
-                row.robots_after,
-                row.robots_after_paper,
-                f"{row.reduction_percent} %",
-                row.longest_staircase,
-                " ".join(f"p{index}[{c},{r}]" for index, c, r in row.supports),
-            )
-            for row in rows
-        ),
-    )
+    print_table(HEADS, map(display, rows))
     print_note(NOTE)
     for path in written:
         print(f"written: {path}")

@@ -8,18 +8,23 @@ import random
 from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import GridError
 
+MAX_SIZE = 10_000
+"""Largest grid made here: its crossings alone take N * N bytes."""
+
 
 def torus_knot(p: int, q: int) -> GridDiagram:
     """The standard grid of the torus knot T(p, q), of size |p| + |q| (its arc index if both >= 2).
 
     T(p, q) with p q > 0 is the positive (right-handed) knot, with p q < 0 its mirror image.
-    Source: Matsuda, "Links in an open book decomposition and in the standard contact structure",
-    doi:10.1090/S0002-9939-06-08350-0; Etnyre and Honda for the arc index.
+    Source: Cromwell, "Arc presentations of knots and links", Banach Center Publ. 42 (1998), for the
+    grid; Etnyre and Honda, "Knots and contact geometry I: torus knots and the figure eight knot",
+    arXiv:math/0006112, for the arc index.
 
     Raises
     ------
     GridError
-        p or q is zero, or they have a common divisor (then T(p, q) is a link).
+        p or q is zero, they have a common divisor (then T(p, q) is a link), or the grid would be
+        larger than `MAX_SIZE`.
 
     Examples
     --------
@@ -36,6 +41,7 @@ def torus_knot(p: int, q: int) -> GridDiagram:
     if components != 1:
         raise GridError(f"T({p},{q}) is a link of {components} components, a knot has 1")
     size = abs(p) + abs(q)
+    _check_size(size)
     minus = range(1, size + 1)
     plus = [(row + abs(p) - 1) % size + 1 for row in minus]
     marks = [*enumerate(minus, 1), *enumerate(plus, 1)]  # with columns over rows: T(|p|, -|q|)
@@ -57,13 +63,17 @@ def random_knot(size: int, seed: int) -> GridDiagram:
     seed : int
         Seed of the generator; the same seed gives the same diagram.
 
+    Raises
+    ------
+    GridError
+        The size is below 2 or above `MAX_SIZE`.
+
     Examples
     --------
     >>> random_knot(6, seed=1) == random_knot(6, seed=1)
     True
     """
-    if size < 2:
-        raise GridError(f"a grid diagram has size 2 or more, not {size}")
+    _check_size(size)
     generator = random.Random(seed)
     columns = generator.sample(range(1, size + 1), size)
     rows = generator.sample(range(1, size + 1), size)
@@ -72,3 +82,8 @@ def random_knot(size: int, seed: int) -> GridDiagram:
         minus[column - 1] = rows[step - 1]
         plus[column - 1] = rows[step]
     return GridDiagram(tuple(minus), tuple(plus))
+
+
+def _check_size(size: int) -> None:
+    if not 2 <= size <= MAX_SIZE:
+        raise GridError(f"a grid diagram has size 2 to {MAX_SIZE}, not {size}")

@@ -1,7 +1,7 @@
 """Grid diagrams: the N x N matrix A of the paper (section II, Definition 2).
 
 Coordinates are [column, row], 1-based, x = column to the right, y = row up. Columns pass over
-rows. Source: Wu, Lopez, D'Antonio, Saldana, "Tying Knots in the Air"; Cromwell, "Embedding knots
+rows. Source: Wu, Lopez, D'Antonio, Saldaña, "Tying Knots in the Air"; Cromwell, "Embedding knots
 and links in an open book I", doi:10.1016/0166-8641(94)00087-J.
 """
 
@@ -55,6 +55,8 @@ class GridDiagram:
     plus: tuple[int, ...]
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "minus", _rows("minus", self.minus))
+        object.__setattr__(self, "plus", _rows("plus", self.plus))
         if len(self.minus) != len(self.plus):
             raise GridError(
                 f"minus has {len(self.minus)} columns and plus has {len(self.plus)}; "
@@ -101,7 +103,7 @@ class GridDiagram:
                     f"but row {size - i} has {len(line)} entries"
                 )
             for j, entry in enumerate(line):
-                if entry not in (-1, 0, 1):
+                if not isinstance(entry, (int, float, np.number)) or entry not in (-1, 0, 1):
                     raise GridError(
                         f"entry {entry!r} at column {j + 1}, row {size - i}: "
                         "the entries of a grid diagram are -1, 0 and 1"
@@ -193,6 +195,20 @@ class GridDiagram:
             column = sum(columns_of[row]) - column
         return tuple(path)
 
+    @cached_property
+    def crossing_cells(self) -> NDArray[np.bool_]:
+        """Where a column crosses a row, shape (N, N), indexed [column - 1, row - 1]."""
+        lines = np.arange(1, self.size + 1)
+        marks = np.array(self.marks)
+        low_row, high_row = marks[0::2, 1], marks[1::2, 1]
+        by_row = marks[np.lexsort((marks[:, 0], marks[:, 1])), 0]
+        low_column, high_column = by_row[0::2], by_row[1::2]
+        column_passes = (low_row[:, None] < lines) & (lines < high_row[:, None])
+        row_passes = (low_column < lines[:, None]) & (lines[:, None] < high_column)
+        crossed: NDArray[np.bool_] = column_passes & row_passes
+        crossed.setflags(write=False)
+        return crossed
+
     @property
     def reversed(self) -> GridDiagram:
         """The same diagram with the knot's orientation reversed (A becomes -A)."""
@@ -211,6 +227,19 @@ def _entries(minus: Sequence[int], plus: Sequence[int]) -> list[tuple[int, int, 
     ]
 
 
+def _rows(name: str, rows: Any) -> tuple[int, ...]:
+    """The rows as a tuple of int, whatever sequence or array of integers they came in."""
+    listed = list(rows) if isinstance(rows, Iterable) else [rows]
+    for column, row in enumerate(listed, 1):
+        if not _is_integer(row):
+            raise GridError(f"{name} is {row!r} in column {column}, expected a row number")
+    return tuple(int(row) for row in listed)
+
+
+def _is_integer(value: Any) -> bool:
+    return isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+
+
 def _where(kind: str, places: Sequence[int]) -> str:
     if not places:
         return ""
@@ -220,9 +249,7 @@ def _where(kind: str, places: Sequence[int]) -> str:
 
 def _mark(position: int, mark: Any) -> Mark:
     entries = tuple(mark) if isinstance(mark, Iterable) and not isinstance(mark, str) else (mark,)
-    if len(entries) != 2 or not all(
-        isinstance(e, (int, np.integer)) and not isinstance(e, bool) for e in entries
-    ):
+    if len(entries) != 2 or not all(map(_is_integer, entries)):
         raise GridError(f"mark {position} is {mark!r}, expected [column, row] of two integers")
     return int(entries[0]), int(entries[1])
 

@@ -62,7 +62,7 @@ def transform(diagram: GridDiagram, symmetry: Symmetry) -> GridDiagram:
     >>> transform(transform(grid, Symmetry.QUARTER_TURN), Symmetry.QUARTER_TURN_BACK) == grid
     True
     """
-    exchange, flip_columns, flip_rows = _STEPS[symmetry]
+    exchange, flip_columns, flip_rows = _STEPS[Symmetry(symmetry)]
     minus, plus, size = diagram.minus, diagram.plus, diagram.size
     if exchange:
         # The knot runs along columns from -1 to +1; to run along the new ones it swaps the signs.
@@ -99,8 +99,8 @@ def can_commute_columns(diagram: GridDiagram, column: int) -> bool:
     They can if, on the circle of rows, the marks of one do not separate those of the other:
     their segments are nested or disjoint. A shared row is allowed.
     """
-    left = (column - 1) % diagram.size
-    right = column % diagram.size
+    _check_line(diagram, column, "column")
+    left, right = column - 1, column % diagram.size
     low, high = sorted((diagram.minus[left], diagram.plus[left]))
     other = (diagram.minus[right], diagram.plus[right])
     if low in other or high in other:
@@ -122,7 +122,6 @@ def commute_columns(diagram: GridDiagram, column: int) -> GridDiagram:
     >>> commute_columns(GridDiagram((1, 3, 2), (2, 1, 3)), 1)
     GridDiagram(minus=(3, 1, 2), plus=(1, 2, 3))
     """
-    _check_line(diagram, column, "column")
     if not can_commute_columns(diagram, column):
         after = column % diagram.size + 1
         raise MoveError(f"columns {column} and {after} do not commute: their marks interleave")
@@ -130,7 +129,13 @@ def commute_columns(diagram: GridDiagram, column: int) -> GridDiagram:
 
 
 def commute_rows(diagram: GridDiagram, row: int) -> GridDiagram:
-    """Commutation: exchange `row` with the next one up (row N with row 1)."""
+    """Commutation: exchange `row` with the next one up (row N with row 1).
+
+    Raises
+    ------
+    MoveError
+        The two rows' marks are interleaved.
+    """
     _check_line(diagram, row, "row")
     transposed = _transposed(diagram)
     if not can_commute_columns(transposed, row):
@@ -183,6 +188,7 @@ def stabilise(diagram: GridDiagram, column: int, row: int, corner: Corner) -> Gr
 
 def can_destabilise_row(diagram: GridDiagram, row: int) -> bool:
     """Whether the two marks of `row` are in neighbouring columns (cyclically) and N > 2."""
+    _check_line(diagram, row, "row")
     gap = abs(diagram.minus.index(row) - diagram.plus.index(row))
     return diagram.size > 2 and gap in (1, diagram.size - 1)
 
@@ -203,7 +209,6 @@ def destabilise_row(diagram: GridDiagram, row: int) -> GridDiagram:
     >>> destabilise_row(GridDiagram((1, 2, 3), (2, 3, 1)), 2)
     GridDiagram(minus=(1, 2), plus=(2, 1))
     """
-    _check_line(diagram, row, "row")
     if not can_destabilise_row(diagram, row):
         raise MoveError(
             f"row {row} cannot be contracted: its marks are in columns "
@@ -223,13 +228,19 @@ def destabilise_row(diagram: GridDiagram, row: int) -> GridDiagram:
 
 def can_destabilise_column(diagram: GridDiagram, column: int) -> bool:
     """Whether the two marks of `column` are in neighbouring rows (cyclically) and N > 2."""
+    _check_line(diagram, column, "column")
     gap = abs(diagram.minus[column - 1] - diagram.plus[column - 1])
     return diagram.size > 2 and gap in (1, diagram.size - 1)
 
 
 def destabilise_column(diagram: GridDiagram, column: int) -> GridDiagram:
-    """Destabilisation: contract a column whose two marks are in neighbouring rows."""
-    _check_line(diagram, column, "column")
+    """Destabilisation: contract a column whose two marks are in neighbouring rows.
+
+    Raises
+    ------
+    MoveError
+        The marks are not in neighbouring rows, or the grid is the 2 x 2 one.
+    """
     if not can_destabilise_column(diagram, column):
         raise MoveError(
             f"column {column} cannot be contracted: its marks are in rows "

@@ -45,6 +45,8 @@ def _read_json(text: str) -> GridDiagram:
         content: Any = json.loads(text)
     except json.JSONDecodeError as error:
         raise FileFormatError(f"line {error.lineno} is not JSON: {error.msg}") from error
+    except (ValueError, RecursionError) as error:  # a number of 5,000 digits, lists 1,000 deep
+        raise FileFormatError(f"not the JSON of a grid diagram: {error}") from error
     if isinstance(content, dict):
         keys = [key for key in ("grid", "matrix") if key in content]
         if len(keys) != 1:
@@ -64,7 +66,7 @@ def _read_json(text: str) -> GridDiagram:
 def _read_csv(text: str) -> GridDiagram:
     lines: list[list[int]] = []
     kind = ""
-    for number, fields in enumerate(csv.reader(text.splitlines()), 1):
+    for number, fields in enumerate(_csv_lines(text), 1):
         if not any(field.strip() for field in fields):
             continue
         if not lines and [field.strip().lower() for field in fields] == ["column", "row"]:
@@ -75,6 +77,13 @@ def _read_csv(text: str) -> GridDiagram:
         except ValueError as error:
             raise FileFormatError(f"line {number}: {error}; expected integers") from error
     return _from_lists(lines, kind)
+
+
+def _csv_lines(text: str) -> list[list[str]]:
+    try:
+        return list(csv.reader(text.splitlines()))
+    except csv.Error as error:
+        raise FileFormatError(f"not the CSV of a grid diagram: {error}") from error
 
 
 def _from_lists(lines: list[list[int]], kind: str) -> GridDiagram:

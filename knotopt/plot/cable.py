@@ -22,13 +22,13 @@ from knotopt.supports.regions import Regions
 CABLE_COLOUR = "#222222"
 SUPPORT_COLOUR = "#0072B2"
 LIFTING_COLOUR = "#D55E00"
-LAYER_COLOURS = ("#FDF5DC", "#F9E6AE", "#F3D06B", "#E8B02A")
+LAYER_COLOURS = ("#FBEBBE", "#F5D57C", "#EBB73A", "#D0930F")
 PASSIVE_COLOUR = "#AAAAAA"
 GAP = 0.2  # half-width of the gap in an under-crossing strand [grid steps]
 NUMBER_OFFSET = 7  # from a turning point to its number, along each axis [points]
 
 
-def draw_cable(axes: Axes, cable: Cable, *, number: bool = True) -> None:
+def draw_cable(axes: Axes, cable: Cable) -> None:
     """The cable with gaps at under-crossings and its turning points numbered along the path."""
     size = cable.diagram.size
     pieces = []
@@ -45,19 +45,18 @@ def draw_cable(axes: Axes, cable: Cable, *, number: bool = True) -> None:
     axes.add_collection(
         LineCollection(pieces, colors=CABLE_COLOUR, linewidths=2, capstyle="round", zorder=3)
     )
-    if number:
-        for index, (point, away) in enumerate(zip(cable.path, _away(cable), strict=True), 1):
-            axes.annotate(
-                str(index),
-                point,
-                (NUMBER_OFFSET * away[0], NUMBER_OFFSET * away[1]),
-                textcoords="offset points",
-                fontsize=8,
-                ha="center",
-                va="center",
-                color="#444444",
-                zorder=5,
-            )
+    for index, (point, away) in enumerate(zip(cable.path, _away(cable), strict=True), 1):
+        axes.annotate(
+            str(index),
+            point,
+            (NUMBER_OFFSET * away[0], NUMBER_OFFSET * away[1]),
+            textcoords="offset points",
+            fontsize=8,
+            ha="center",
+            va="center",
+            color="#444444",
+            zorder=5,
+        )
     axes.set_xlim(0.2, size + 0.8)
     axes.set_ylim(0.2, size + 0.8)
     axes.set_aspect("equal")
@@ -115,7 +114,7 @@ def draw_regions(axes: Axes, regions: Regions) -> list[Patch]:
     handles = []
     if deepest:
         axes.imshow(
-            np.ma.masked_equal(np.minimum(layers, shades), 0).T,
+            np.ma.masked_equal(-(-layers * shades // deepest), 0).T,
             origin="lower",
             extent=(0, size + 1, 0, size + 1),
             cmap=ListedColormap(LAYER_COLOURS[:shades]),
@@ -124,11 +123,10 @@ def draw_regions(axes: Axes, regions: Regions) -> list[Patch]:
             zorder=0,
         )
         for layer in range(1, shades + 1):
-            more = "+" if layer == shades < deepest else ""
-            plural = "s" if layer > 1 or more else ""
-            handles.append(
-                Patch(color=LAYER_COLOURS[layer - 1], label=f"{layer}{more} active region{plural}")
-            )
+            low, high = (layer - 1) * deepest // shades + 1, layer * deepest // shades
+            count = str(high) if low == high else f"{low}\N{EN DASH}{high}"
+            label = f"{count} active region" + ("s" if high > 1 else "")
+            handles.append(Patch(color=LAYER_COLOURS[layer - 1], label=label))
     passive = [_squares(region.interior) for region in regions if not region.is_active]
     if np.any(passive):
         style: dict[str, Any] = {

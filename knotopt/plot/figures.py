@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import io
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import matplotlib
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from knotopt.cable.cable import Cable
-from knotopt.errors import FileFormatError, MissingExtraError
+from knotopt.errors import OutputError
 from knotopt.files import write_atomically
+from knotopt.plot.cable import draw_cable, draw_regions, draw_robots
 from knotopt.supports.lcf import LcfResult
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 PANEL = 3.4  # width of a panel [inch]: one column of a two-column paper
 FORMATS = (".png", ".pdf", ".svg")
@@ -21,8 +22,6 @@ FORMATS = (".png", ".pdf", ".svg")
 
 def cable_figure(cable: Cable, title: str) -> Figure:
     """One panel: the grid diagram opened at its cut, turning points numbered."""
-    from knotopt.plot.cable import draw_cable, draw_robots
-
     figure, (axes,) = _panels(1, cable)
     draw_cable(axes, cable)
     handles = draw_robots(axes, cable, [])
@@ -33,8 +32,6 @@ def cable_figure(cable: Cable, title: str) -> Figure:
 
 def lcf_figure(result: LcfResult, title: str) -> Figure:
     """One panel: supports, active regions shaded by layer, passive ones hatched."""
-    from knotopt.plot.cable import draw_cable, draw_regions, draw_robots
-
     figure, (axes,) = _panels(1, result.cable)
     regions = draw_regions(axes, result.regions)
     draw_cable(axes, result.cable)
@@ -45,25 +42,18 @@ def lcf_figure(result: LcfResult, title: str) -> Figure:
 
 
 def before_after_figure(result: LcfResult, title: str) -> Figure:
-    """Two panels: the baseline with a robot at every turning point, and LCF's supports."""
-    from knotopt.plot.cable import draw_cable, draw_regions, draw_robots
-
+    """Two panels: above the baseline, a robot at every turning point, and below LCF's supports."""
     cable = result.cable
     figure, (before, after) = _panels(2, cable)
     draw_cable(before, cable)
     draw_robots(before, cable, range(2, len(cable.path)))
-    before.set_title(f"before: {result.baseline} robots", fontsize=11)
+    before.set_title(f"before: {result.baseline} robots", fontsize=9)
     regions = draw_regions(after, result.regions)
     draw_cable(after, cable)
     handles = draw_robots(after, cable, result.supports)
-    after.set_title(f"after: {result.robots} robots", fontsize=11)
-    figure.suptitle(title, fontsize=11)
-    figure.legend(
-        handles=[*handles, *regions],
-        loc="outside lower center",
-        ncols=3,
-        **{**_LEGEND, "fontsize": 9},
-    )
+    after.set_title(f"after: {result.robots} robots", fontsize=9)
+    figure.suptitle(title, fontsize=9)
+    figure.legend(handles=[*handles, *regions], loc="outside lower center", ncols=2, **_LEGEND)
     return figure
 
 
@@ -71,13 +61,11 @@ def save_figure(figure: Figure, path: Path) -> None:
     """Write a figure as .png (200 dpi), .pdf or .svg, atomically and the same bytes every time."""
     suffix = path.suffix.lower()
     if suffix not in FORMATS:
-        raise FileFormatError(f"{path}: pictures are written as {', '.join(FORMATS)}")
-    import matplotlib as mpl
-
+        raise OutputError(f"{path}: pictures are written as {', '.join(FORMATS)}")
     # Without a date and with a fixed salt, the same figure gives the same file.
     metadata = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}[suffix]
     buffer = io.BytesIO()
-    with mpl.rc_context({"svg.hashsalt": "knotopt"}):
+    with matplotlib.rc_context({"svg.hashsalt": "knotopt"}):
         figure.savefig(buffer, format=suffix[1:], dpi=200, metadata=metadata)
     write_atomically(path, buffer.getvalue())
 
@@ -91,11 +79,7 @@ _LEGEND: dict[str, Any] = {
 
 
 def _panels(count: int, cable: Cable) -> tuple[Figure, list[Axes]]:
-    try:
-        from matplotlib.figure import Figure as NewFigure
-    except ImportError as error:
-        raise MissingExtraError("matplotlib", "viz", "drawing pictures") from error
     side = max(PANEL, 0.25 * cable.diagram.size)
-    figure = NewFigure(figsize=(count * side, side + 0.9), layout="constrained")
-    axes = figure.subplots(1, count, squeeze=False)[0]
+    figure = Figure(figsize=(side, count * side + 0.9), layout="constrained")
+    axes = figure.subplots(count, 1, squeeze=False)[:, 0]
     return figure, list(axes)

@@ -14,7 +14,7 @@ import numpy as np
 from knotopt.cable.cable import BoolArray, Cable, IntArray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Boundaries:
     """Boundaries of R regions as arrays: all loops by first visit, then all pockets by closing.
 
@@ -35,6 +35,10 @@ class Boundaries:
     a: IntArray
     b: IntArray
     b_forward: BoolArray
+
+    def __post_init__(self) -> None:
+        for array in (self.apexes, self.a, self.b, self.b_forward):
+            array.setflags(write=False)
 
     def __len__(self) -> int:
         return len(self.apexes)

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from knotopt.cable.cable import Cable, IntArray
 from knotopt.cable.cut import Cut, outer_cuts
-from knotopt.diagram.grid import GridDiagram, Mark
+from knotopt.diagram.grid import GridDiagram
 from knotopt.supports.regions import Regions
 
 
@@ -23,16 +22,16 @@ class LcfResult:
     regions : Regions
     layered : bool
         Whether points inside another active region were dropped.
-    selected : dict of int to tuple of int
-        For each active region (its index), the turning points it selects (1-based), going round
-        its boundary.
+    selected : tuple of tuple of int
+        For each region, the turning points it selects (1-based), going round its boundary; none
+        for a passive one.
     supports : tuple of int
         Turning points that carry a support robot (1-based on the path), without p_1 and p_n.
     """
 
     regions: Regions
     layered: bool
-    selected: dict[int, tuple[int, ...]]
+    selected: tuple[tuple[int, ...], ...]
     supports: tuple[int, ...]
 
     @property
@@ -51,14 +50,14 @@ class LcfResult:
         return len(self.cable.path)
 
     @property
-    def reduction(self) -> float:
-        """Share of the baseline's robots that is saved, 0 ... 1."""
-        return 1 - self.robots / self.baseline
+    def reduction_percent(self) -> float:
+        """Share of the baseline's robots that is saved [percent, to one decimal]."""
+        return round(100 * (1 - self.robots / self.baseline), 1)
 
-    @cached_property
-    def support_marks(self) -> tuple[Mark, ...]:
-        """[column, row] of each support."""
-        return tuple(self.cable.path[index - 1] for index in self.supports)
+    @property
+    def placed_supports(self) -> tuple[tuple[int, int, int], ...]:
+        """[index on the path (1-based), column, row] of each support."""
+        return tuple((index, *self.cable.path[index - 1]) for index in self.supports)
 
 
 def lcf(cable: Cable, *, layered: bool = False) -> LcfResult:
@@ -78,7 +77,7 @@ def lcf(cable: Cable, *, layered: bool = False) -> LcfResult:
 
     References
     ----------
-    Wu, Lopez, D'Antonio, Saldana, "Tying Knots in the Air", section III.A.
+    Wu, Lopez, D'Antonio, Saldaña, "Tying Knots in the Air", section III.A.
 
     Examples
     --------
@@ -86,14 +85,14 @@ def lcf(cable: Cable, *, layered: bool = False) -> LcfResult:
     >>> trefoil = GridDiagram.from_matrix([[0, -1, 0, 0, 1], [1, 0, -1, 0, 0],
     ...     [0, 1, 0, -1, 0], [0, 0, 1, 0, -1], [-1, 0, 0, 1, 0]])
     >>> result = lcf(Cable(trefoil, "L+"))
-    >>> result.robots, result.supports, result.support_marks
-    (5, (3, 4, 6), ((3, 2), (5, 2), (2, 5)))
+    >>> result.robots, result.placed_supports
+    (5, ((3, 3, 2), (4, 5, 2), (6, 2, 5)))
     """
     regions = Regions(cable)
     active = regions.active
     extremal = _extremal_points(regions, active)
     walked, crossed, total = _boundary_walk(regions, active)
-    selected: dict[int, tuple[int, ...]] = {}
+    selected: list[tuple[int, ...]] = [()] * len(regions)
     chosen = np.zeros(len(cable.path), dtype=bool)
     for position, region in enumerate(active.tolist()):
         points = sorted(set(extremal[position]), key=walked[position].__getitem__)
@@ -103,13 +102,21 @@ def lcf(cable: Cable, *, layered: bool = False) -> LcfResult:
     if layered:
         chosen &= ~regions.inside[active].any(axis=0)
     chosen[[0, -1]] = False
-    return LcfResult(regions, layered, selected, tuple((np.flatnonzero(chosen) + 1).tolist()))
+    return LcfResult(
+        regions, layered, tuple(selected), tuple((np.flatnonzero(chosen) + 1).tolist())
+    )
 
 
 def lcf_by_cut(
     diagram: GridDiagram, *, layered: bool = False, cuts: Iterable[Cut] | None = None
 ) -> dict[Cut, LcfResult]:
-    """LCF on each of the given cuts; by default the eight outer ones, L+ first."""
+    """LCF on each of the given cuts; by default the eight outer ones, L+ first.
+
+    Raises
+    ------
+    CutError
+        A cut's segment carries crossings.
+    """
     chosen = outer_cuts(diagram) if cuts is None else cuts
     return {cut: lcf(Cable(diagram, cut), layered=layered) for cut in chosen}
 
@@ -119,8 +126,19 @@ def best_cut(diagram: GridDiagram, *, layered: bool = False) -> LcfResult:
     return min(lcf_by_cut(diagram, layered=layered).values(), key=lambda result: result.robots)
 
 
+def format_supports(placed: Iterable[tuple[int, int, int]]) -> str:
+    """Placed supports as text.
+
+    Examples
+    --------
+    >>> format_supports([(3, 3, 2), (4, 5, 2)])
+    'p3[3,2] p4[5,2]'
+    """
+    return " ".join(f"p{index}[{column},{row}]" for index, column, row in placed)
+
+
 def _extremal_points(regions: Regions, active: IntArray) -> list[list[int]]:
-    """Turning points with max x, min x, max y, min y of B(l); ties to the first on the path."""
+    """Turning points with max x, min x, max y, min y of B(l) (eq. 10); ties: first on the path."""
     on = regions.on_boundary[active]
     extremes = []
     for coordinate in regions.cable.points.T:

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from knotopt.cable.cable import BoolArray, Cable, IntArray
+from knotopt.cable.cable import BoolArray, Cable, IntArray, frozen
 from knotopt.supports.boundary import Boundaries, find_boundaries
 from knotopt.supports.interior import fill_interiors, layer_count, unpack
 
@@ -26,7 +26,7 @@ class RegionKind(StrEnum):
     POCKET = "pocket"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Region:
     """One region of a cable.
 
@@ -91,7 +91,7 @@ class Regions:
     @cached_property
     def packed_interiors(self) -> NDArray[np.uint8]:
         """Interior masks, packed to bits, shape (R, ceil(N * N / 8))."""
-        return fill_interiors(self.cable, self.boundaries)
+        return frozen(fill_interiors(self.cable, self.boundaries))
 
     @cached_property
     def on_boundary(self) -> BoolArray:
