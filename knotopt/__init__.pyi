@@ -24,3 +24,5 @@ from .supports.lcf import lcf as lcf
 from .supports.lcf import lcf_by_cut as lcf_by_cut
 from .supports.regions import Region as Region
 from .supports.regions import Regions as Regions
+
+__version__: str

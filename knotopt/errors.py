@@ -35,5 +35,6 @@ class MissingExtraError(KnotoptError):
     def __init__(self, package: str, extra: str, purpose: str) -> None:
         super().__init__(
             f"{purpose} needs {package}, which is not installed; "
-            f"install it with: pip install 'knotopt[{extra}]'"
+            f"install it with: pip install 'knotopt[{extra}]' "
+            f"(in a clone: pip install '.[{extra}]')"
         )

@@ -10,6 +10,7 @@ from typing import Any
 
 from knotopt.cable.staircase import find_staircases
 from knotopt.catalogue.table1_grids import Table1Grid, table1_grids
+from knotopt.diagram.grid import Mark
 from knotopt.supports.lcf import LcfResult, best_cut, format_supports
 
 NOTE = """\
@@ -31,7 +32,8 @@ class Table1Row:
     """One row; the fields are the columns of the CSV and the keys of the JSON.
 
     `supports` holds [index on the path (1-based), column, row] of each support robot;
-    `longest_staircase` is the number of crossings in the longest diagonal run (Fig. 7).
+    `longest_staircase` is the number of crossings in the longest diagonal run (Fig. 7);
+    `grid` holds the marks [column, row] of the grid diagram.
     """
 
     row: str
@@ -45,6 +47,7 @@ class Table1Row:
     reduction_percent: float
     longest_staircase: int
     supports: tuple[tuple[int, int, int], ...]
+    grid: tuple[Mark, ...]
 
 
 def compute_table1(*, all_grids: bool = False) -> list[tuple[Table1Row, LcfResult]]:
@@ -80,7 +83,7 @@ def display(row: Table1Row) -> list[str]:
 
 
 def table1_csv(rows: list[Table1Row]) -> str:
-    """The rows as CSV; `supports` is a JSON list in its cell."""
+    """The rows as CSV; `supports` and `grid` are JSON lists in their cells."""
     buffer = io.StringIO()
     names = [field.name for field in fields(Table1Row)]
     writer = csv.DictWriter(buffer, names, lineterminator="\n")
@@ -112,9 +115,10 @@ def _row(grid: Table1Grid, result: LcfResult) -> Table1Row:
         reduction_percent=result.reduction_percent,
         longest_staircase=longest,
         supports=result.placed_supports,
+        grid=grid.marks,
     )
 
 
 def _cells(row: Table1Row) -> dict[str, Any]:
     cells = {field.name: getattr(row, field.name) for field in fields(Table1Row)}
-    return {**cells, "supports": json.dumps(row.supports)}
+    return {**cells, "supports": json.dumps(row.supports), "grid": json.dumps(row.grid)}

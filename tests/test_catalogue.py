@@ -118,6 +118,7 @@ def test_knots_of_the_extra(name: str) -> None:
     [
         ("8_22", UnknownKnotError, "no knot is named '8_22'; nearest: 8_2"),
         ("7 Var3", UnknownKnotError, "nearest: 7 Var"),
+        ("7", UnknownKnotError, "nearest: 7 Var1, 7 Var2"),
         ("0_1", UnknownKnotError, "'0_1'; nearest"),
         ("11a_999", UnknownKnotError, "nearest: 11a_"),
         ("zzzzzz", UnknownKnotError, "`knotopt knots` lists the names"),

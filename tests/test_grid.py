@@ -92,7 +92,8 @@ def test_bad_matrix(matrix: list[list[int]], message: str) -> None:
             [[1, 1], [1, 2], [2, 1], [2, 2], [4, 4], [4, 5], [5, 4], [5, 5]],
             "row 3 has no marks, expected two",
         ),
-        ([[1, 1], [1, 10**9]], r"mark \[1, 1000000000\] is outside the grid: 2 marks"),
+        ([[1, 1], [1, 2], [2, 1], [2, 10**9]], r"mark \[2, 1000000000\] is outside .*: 4 marks"),
+        ([[1, 4]], "1 mark: a grid diagram has"),
     ],
 )
 def test_bad_marks(marks: list[list[int]], message: str) -> None:

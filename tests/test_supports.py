@@ -17,6 +17,7 @@ from knotopt.cable.cut import crossing_free_cuts
 from knotopt.catalogue.knots import shipped_knots
 from knotopt.diagram.families import random_knot, torus_knot
 from knotopt.diagram.grid import GridDiagram
+from knotopt.errors import GridError
 from knotopt.supports import interior
 from knotopt.supports.lcf import best_cut, lcf, lcf_by_cut
 from knotopt.supports.regions import Regions
@@ -106,6 +107,20 @@ def test_interiors_do_not_depend_on_the_batch(monkeypatch: pytest.MonkeyPatch) -
     batched = Regions(cable)
     assert (whole.packed_interiors == batched.packed_interiors).all()
     assert (whole.layers() == batched.layers()).all()
+
+
+def test_selection_does_not_depend_on_the_batch(monkeypatch: pytest.MonkeyPatch) -> None:
+    cable = Cable(random_knot(25, seed=3), "R-")
+    whole = lcf(cable)
+    monkeypatch.setattr("knotopt.supports.lcf._ENTRIES_AT_ONCE", 300)
+    batched = lcf(cable)
+    assert whole == batched and len(whole.regions.active) > 6
+
+
+def test_a_grid_that_is_too_large_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(interior, "MAX_GIBIBYTES", 1e-6)
+    with pytest.raises(GridError, match=r"a grid of size 41 with \d+ regions is too large"):
+        lcf(Cable(torus_knot(20, 21), "L+"))
 
 
 def test_a_cable_without_crossings_needs_no_supports() -> None:

@@ -126,10 +126,11 @@ class Cable:
         if not cut.is_outer:
             line = diagram.crossing_cells.take(cut.index - 1, axis=int(cut.axis == "row"))
             if line.any():
+                count = int(line.sum())
                 free = ", ".join(str(free) for free in crossing_free_cuts(diagram))
                 raise CutError(
                     f"cut {cut}: the segment in {cut.axis} {cut.index} carries "
-                    f"{int(line.sum())} crossing(s), so the cable would not hold the knot; "
+                    f"{count} crossing{'s' * (count != 1)}, so the cable would not hold the knot; "
                     f"crossing-free cuts of this grid: {free}"
                 )
 

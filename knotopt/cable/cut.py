@@ -64,7 +64,9 @@ class Cut:
         CutError
             The name is of neither form, or the column or row is outside the grid.
         """
-        match = re.fullmatch(r"\s*(?:([LRBT])|(col|row)\s*(\d+))([+-])\s*", name, re.IGNORECASE)
+        match = re.fullmatch(
+            r"\s*(?:([LRBT])|(col|row)\s*([0-9]{1,9}))([+-])\s*", name, re.IGNORECASE
+        )
         if match is None:
             raise CutError(
                 f"no cut is named {name!r}: expected one of {', '.join(OUTER_CUTS)}, "

@@ -68,7 +68,9 @@ def find_knot(text: str) -> NamedDiagram:
     """
     if Path(text).suffix.lower() in (".json", ".csv"):
         return NamedDiagram(Path(text).name, read_grid(text), f"file {text}")
-    torus = re.fullmatch(r"\s*T\(\s*(-?\d{1,18})\s*,\s*(-?\d{1,18})\s*\)\s*", text, re.IGNORECASE)
+    torus = re.fullmatch(
+        r"\s*T\(\s*(-?[0-9]{1,18})\s*,\s*(-?[0-9]{1,18})\s*\)\s*", text, re.IGNORECASE
+    )
     if torus:
         p, q = (int(number) for number in torus.groups())
         return NamedDiagram(f"T({p},{q})", torus_knot(p, q), "torus knot")
@@ -89,7 +91,8 @@ def _by_name(text: str) -> NamedDiagram:
         return NamedDiagram(name, knots[name].diagram, "KnotInfo", knots[name])
     if crossings and SHIPPED_CROSSINGS < int(crossings[1]) <= 13 and not is_installed():
         raise MissingExtraError("database_knotinfo", "knotinfo", f"knot {name!r}")
-    known = [*knots, *dict.fromkeys(grid.row for grid in table1_grids())]
-    near = difflib.get_close_matches(name, known, n=3, cutoff=0.3)
+    rows = dict.fromkeys(grid.row for grid in table1_grids())
+    near = [row for row in rows if text and row.lower().startswith(text)]
+    near += difflib.get_close_matches(name, [*knots, *rows], n=3, cutoff=0.3)
     hint = f"; nearest: {', '.join(near)}" if near else "; `knotopt knots` lists the names"
     raise UnknownKnotError(f"no knot is named {text!r}{hint}")

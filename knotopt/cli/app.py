@@ -8,15 +8,14 @@ from typing import Annotated
 
 import typer
 
+from knotopt import __version__
 from knotopt.cli import doctor, knots, lcf, show, table1
 from knotopt.errors import KnotoptError
 
 
 def _print_version(wanted: bool) -> None:
     if wanted:
-        import importlib.metadata
-
-        print(importlib.metadata.version("knotopt"))
+        print(__version__)
         raise typer.Exit
 
 
@@ -27,7 +26,7 @@ app = typer.Typer(
     "or a .json or .csv file with a grid diagram.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
-    rich_markup_mode="rich",
+    rich_markup_mode=None,  # help without importing rich answers in half the time
 )
 
 

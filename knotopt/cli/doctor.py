@@ -11,9 +11,9 @@ PACKAGES = ("knotopt", "numpy", "scipy", "networkx", "casadi", "cvxpy", "highspy
 
 
 def doctor(as_json: JsonOption = False) -> None:
-    """Check this installation: versions, solvers (each solves a small program), extras.
+    """Check versions, solvers (each solves a program) and extras.
 
-    Exit status 1 if a solver does not work. Example: [bold]knotopt doctor[/bold]
+    Exit status 1 if a solver does not work. Example: knotopt doctor
     """
     import importlib.metadata
     import importlib.util

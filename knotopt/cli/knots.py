@@ -28,7 +28,7 @@ def knots(
 ) -> None:
     """List the prime knots in the catalogue.
 
-    Example: [bold]knotopt knots --crossings 8 --non-alternating[/bold]
+    Example: knotopt knots --crossings 8 --non-alternating
     """
     from knotopt.cable.alexander import format_polynomial
     from knotopt.catalogue.knotinfo import knotinfo_knots
@@ -48,7 +48,7 @@ def knots(
         print_json([{"knot": entry.pop("name"), **entry} for entry in entries])
         return
     print_table(
-        ("knot", "crossings", "arc index", "alternating", "determinant", "signature", "Alexander"),
+        ("knot", "crossings", "arc index", "alternates", "det", "signature", "Alexander"),
         (
             (
                 knot.name,
@@ -62,4 +62,6 @@ def knots(
             for knot in chosen
         ),
     )
-    print(f"{len(chosen)} knots")
+    print(f"{len(chosen)} knot" + ("" if len(chosen) == 1 else "s"))
+    if not chosen and not every:
+        print("The catalogue ends at 10 crossings; --all looks among KnotInfo's 12,965 knots.")

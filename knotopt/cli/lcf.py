@@ -13,6 +13,7 @@ from knotopt.cli.output import (
     PlotOption,
     print_json,
     print_table,
+    print_written,
 )
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ def lcf(
     cut: Annotated[
         str,
         typer.Option(
-            help="[bold]best[/bold] outer cut, [bold]all[/bold] crossing-free cuts, "
+            help="best (of the outer cuts), all (that are crossing-free), "
             "or one: L+ L- R+ R- B+ B- T+ T-, col3+, row5-."
         ),
     ] = "best",
@@ -32,9 +33,9 @@ def lcf(
     plot: PlotOption = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Select support robots by the paper's Loop Consistency Filter.
+    """Select support robots by the Loop Consistency Filter (LCF).
 
-    Example: [bold]knotopt lcf '7 Var2' --cut best --plot supports.png[/bold]
+    Example: knotopt lcf '7 Var2' --cut best --plot supports.png
     """
     from knotopt.cable.cut import Cut, crossing_free_cuts
     from knotopt.catalogue.lookup import find_knot
@@ -102,6 +103,8 @@ def lcf(
             for number, region in enumerate(result.regions)
         ),
     )
+    if plot is not None:
+        print_written(plot)
 
 
 def _row(name: str, result: LcfResult) -> dict[str, Any]:
@@ -118,6 +121,7 @@ def _row(name: str, result: LcfResult) -> dict[str, Any]:
 
 def _details(result: LcfResult) -> dict[str, Any]:
     return {
+        "grid": [list(mark) for mark in result.cable.diagram.marks],
         "path": [list(mark) for mark in result.cable.path],
         "crossings": [[c.column, c.row] for c in result.cable.crossings],
         "regions": [

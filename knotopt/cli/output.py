@@ -30,15 +30,16 @@ LayeredOption = Annotated[
 
 
 UNBROKEN = 1_000_000  # characters
+NARROWEST = 9  # of a column whose cells are longer [characters]
 
 
 def print_json(content: Any) -> None:
-    """Print JSON, indented, with each innermost list on one line."""
+    """Print JSON with each innermost list on one line, where `json` would use a line a number."""
     print(_indented(content, ""))
 
 
 def print_table(columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
-    """Print a table; numbers stand to the right, and only the last column breaks lines."""
+    """Print a table; numbers stand to the right."""
     from rich import box
     from rich.console import Console
     from rich.table import Table
@@ -48,16 +49,23 @@ def print_table(columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
     cells = [[_cell(value) for value in row] for row in rows]
     for index, column in enumerate(columns):
         numeric = all(row[index].replace(".", "").lstrip("-").isdigit() for row in cells)
+        # In a narrow terminal long cells break into lines; no column vanishes.
+        width = max(map(len, [column, *(row[index] for row in cells)]))
         table.add_column(
             column,
             justify="right" if numeric else "left",
-            no_wrap=index < len(columns) - 1,
+            min_width=min(width, NARROWEST),
             overflow="fold",
         )
     for row in cells:
         table.add_row(*(Text(cell) for cell in row))  # not markup: cells hold [brackets]
     # Into a pipe or a file, a row is one line.
     Console(width=None if sys.stdout.isatty() else UNBROKEN).print(table)
+
+
+def print_written(path: Path) -> None:
+    """Say where a result was written."""
+    print(f"written: {path}")
 
 
 def print_note(text: str) -> None:

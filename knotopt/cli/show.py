@@ -7,7 +7,14 @@ from typing import Annotated
 
 import typer
 
-from knotopt.cli.output import JsonOption, KnotArgument, PlotOption, print_facts, print_json
+from knotopt.cli.output import (
+    JsonOption,
+    KnotArgument,
+    PlotOption,
+    print_facts,
+    print_json,
+    print_written,
+)
 
 MAX_CROSSINGS = 120  # of an Alexander polynomial computed here: about a second
 
@@ -18,9 +25,9 @@ def show(
     plot: PlotOption = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Show a knot: its grid diagram as a cable, its crossings, codes and invariants.
+    """Show a knot: its cable, crossings, codes and invariants.
 
-    Example: [bold]knotopt show 8_19 --plot 8_19.png[/bold]
+    Example: knotopt show 8_19 --plot 8_19.png
     """
     from knotopt.cable.alexander import alexander_polynomial, determinant, format_polynomial
     from knotopt.cable.cable import Cable
@@ -87,7 +94,10 @@ def show(
     from knotopt.cli.drawing import draw_text
 
     print(draw_text(cable), end="\n\n")
-    unknown = f"not computed above {MAX_CROSSINGS} crossings"
+    unknown = (
+        f"not computed: the smallest grid found has {len(reduced.crossings)} crossings, "
+        f"more than {MAX_CROSSINGS}"
+    )
     print_facts(
         [
             ("knot", f"{named.name} ({named.source})"),
@@ -99,7 +109,9 @@ def show(
             ("Alexander", unknown if polynomial is None else format_polynomial(polynomial)),
             (
                 "signature",
-                named.prime_knot.signature if named.prime_knot else "not in the catalogue",
+                named.prime_knot.signature
+                if named.prime_knot
+                else "known for knots of the catalogue only",
             ),
             ("determinant", unknown if polynomial is None else determinant(polynomial)),
             ("Gauss code", " ".join(map(str, gauss_code(cable)))),
@@ -115,3 +127,5 @@ def show(
             ),
         ]
     )
+    if plot is not None:
+        print_written(plot)

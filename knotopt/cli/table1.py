@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from knotopt.cli.output import JsonOption, print_json, print_note, print_table
+from knotopt.cli.output import JsonOption, print_json, print_note, print_table, print_written
 
 
 def table1(
@@ -23,9 +23,9 @@ def table1(
     ] = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Recompute the paper's Table I: robots before and after reduction by LCF.
+    """Recompute the paper's Table I: robots before and after LCF.
 
-    Example: [bold]knotopt table1 --out paper_results[/bold]
+    Example: knotopt table1 --out paper_results
     """
     from knotopt.table1 import (
         HEADS,
@@ -56,9 +56,9 @@ def table1(
             write_atomically(out / name, text)
             written.append(out / name)
     if as_json:
-        print_json([{**asdict(row), "supports": [list(s) for s in row.supports]} for row in rows])
+        print_json([asdict(row) for row in rows])
         return
     print_table(HEADS, map(display, rows))
     print_note(NOTE)
     for path in written:
-        print(f"written: {path}")
+        print_written(path)

@@ -256,8 +256,11 @@ def _mark(position: int, mark: Any) -> Mark:
 
 def _check_two_per_line(marks: Sequence[Mark], size: int | None = None) -> None:
     """Every column and row from 1 to N has two marks, in two different places."""
-    if not marks:
-        raise GridError("no marks: a grid diagram has two in every column and every row")
+    if size is None and len(marks) < 4:
+        raise GridError(
+            f"{len(marks) or 'no'} mark{'s' * (len(marks) != 1)}: "
+            "a grid diagram has two in every column and every row, at least 4"
+        )
     seen = set()
     for mark in marks:
         if mark in seen:

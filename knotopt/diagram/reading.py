@@ -51,7 +51,7 @@ def _read_json(text: str) -> GridDiagram:
         keys = [key for key in ("grid", "matrix") if key in content]
         if len(keys) != 1:
             found = ", ".join(map(repr, content)) or "none"
-            raise FileFormatError(f'expected one of the keys "grid" or "matrix", found {found}')
+            raise FileFormatError(f'expected either the key "grid" or "matrix", found {found}')
         content, kind = content[keys[0]], keys[0]
     else:
         kind = ""
@@ -75,7 +75,8 @@ def _read_csv(text: str) -> GridDiagram:
         try:
             lines.append([int(field) for field in fields])
         except ValueError as error:
-            raise FileFormatError(f"line {number}: {error}; expected integers") from error
+            line = ",".join(fields)
+            raise FileFormatError(f"line {number} is {line!r}, expected integers") from error
     return _from_lists(lines, kind)
 
 

@@ -15,6 +15,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
+from matplotlib.patheffects import withStroke
 
 from knotopt.cable.cable import BoolArray, Cable, IntArray
 from knotopt.supports.regions import Regions
@@ -24,8 +25,9 @@ SUPPORT_COLOUR = "#0072B2"
 LIFTING_COLOUR = "#D55E00"
 LAYER_COLOURS = ("#FBEBBE", "#F5D57C", "#EBB73A", "#D0930F")
 PASSIVE_COLOUR = "#AAAAAA"
+HALO = [withStroke(linewidth=1.5, foreground="white")]  # keeps numbers legible on hatching
 GAP = 0.2  # half-width of the gap in an under-crossing strand [grid steps]
-NUMBER_OFFSET = 7  # from a turning point to its number, along each axis [points]
+NUMBER_OFFSET = 8  # from a turning point to its number, along each axis [points]
 
 
 def draw_cable(axes: Axes, cable: Cable) -> None:
@@ -56,6 +58,7 @@ def draw_cable(axes: Axes, cable: Cable) -> None:
             va="center",
             color="#444444",
             zorder=5,
+            path_effects=HALO,
         )
     axes.set_xlim(0.2, size + 0.8)
     axes.set_ylim(0.2, size + 0.8)

@@ -25,7 +25,7 @@ def cable_figure(cable: Cable, title: str) -> Figure:
     figure, (axes,) = _panels(1, cable)
     draw_cable(axes, cable)
     handles = draw_robots(axes, cable, [])
-    figure.suptitle(title, fontsize=9)
+    figure.suptitle(title, fontsize=9, parse_math=False)
     figure.legend(handles=handles[1:], loc="outside lower center", ncols=2, **_LEGEND)
     return figure
 
@@ -36,7 +36,7 @@ def lcf_figure(result: LcfResult, title: str) -> Figure:
     regions = draw_regions(axes, result.regions)
     draw_cable(axes, result.cable)
     handles = draw_robots(axes, result.cable, result.supports)
-    figure.suptitle(title, fontsize=9)
+    figure.suptitle(title, fontsize=9, parse_math=False)
     figure.legend(handles=[*handles, *regions], loc="outside lower center", ncols=2, **_LEGEND)
     return figure
 
@@ -52,7 +52,7 @@ def before_after_figure(result: LcfResult, title: str) -> Figure:
     draw_cable(after, cable)
     handles = draw_robots(after, cable, result.supports)
     after.set_title(f"after: {result.robots} robots", fontsize=9)
-    figure.suptitle(title, fontsize=9)
+    figure.suptitle(title, fontsize=9, parse_math=False)
     figure.legend(handles=[*handles, *regions], loc="outside lower center", ncols=2, **_LEGEND)
     return figure
 

@@ -65,7 +65,7 @@ class Boundaries:
 def find_boundaries(cable: Cable) -> Boundaries:
     """Boundaries of every loop and every pocket of a cable.
 
-    Complexity O(C^2) in C crossings, vectorised.
+    O(C) memory and at worst O(C^2) time for C crossings, on arrays.
 
     Examples
     --------
@@ -85,12 +85,12 @@ def find_boundaries(cable: Cable) -> Boundaries:
     disjoint = high < start
     # Interval A must be a single arc of the diagram laid so far: no visit strictly inside it of a
     # crossing that is complete when the pocket closes.
-    visit = np.concatenate((crossings.first, crossings.second))
-    complete = np.tile(crossings.second, 2)
-    interrupted = (
-        (low[:, None] < visit) & (visit < high[:, None]) & (complete <= end[:, None])
-    ).any(axis=1)
-    kept = np.flatnonzero(disjoint & ~interrupted)
+    visits, index, _ = cable.visits
+    complete = np.append(crossings.second[index], cable.length)  # reduceat needs a last entry
+    inside = np.stack((np.searchsorted(visits, low) + 1, np.searchsorted(visits, high)), axis=1)
+    occupied = inside[:, 0] < inside[:, 1]
+    soonest = np.minimum.reduceat(complete, inside.ravel())[::2] if count > 1 else end
+    kept = np.flatnonzero(disjoint & ~(occupied & (soonest <= end)))
 
     # B starts at the crossing where A ends; that is the k-th one exactly if A runs backward.
     forward = first[kept] > first[kept + 1]

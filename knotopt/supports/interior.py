@@ -7,8 +7,10 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from knotopt.cable.cable import BoolArray, Cable
+from knotopt.errors import GridError
 from knotopt.supports.boundary import Boundaries
 
+MAX_GIBIBYTES = 2  # enough for T(250,251)
 _CELLS_AT_ONCE = 1 << 22  # bounds the memory of one batch of flood fills to about 40 MB
 
 # 4 neighbours within a region's own plane, none across planes: one labelling fills many regions.
@@ -27,8 +29,19 @@ def fill_interiors(cable: Cable, boundaries: Boundaries) -> NDArray[np.uint8]:
     -------
     uint8 array, shape (R, ceil(N * N / 8))
         Bits of the (N, N) masks indexed [column - 1, row - 1]; see `unpack`.
+
+    Raises
+    ------
+    GridError
+        The masks would take more than `MAX_GIBIBYTES`.
     """
     size = cable.diagram.size
+    gibibytes = len(boundaries) * size**2 / 8 / 2**30
+    if gibibytes > MAX_GIBIBYTES:
+        raise GridError(
+            f"a grid of size {size} with {len(boundaries)} regions is too large: their interiors "
+            f"take {gibibytes:.0f} GiB, and {MAX_GIBIBYTES} are allowed"
+        )
     batch = max(1, _CELLS_AT_ONCE // (size + 2) ** 2)
     parts = [
         np.packbits(_fill(cable, boundaries, slice(low, low + batch)), axis=1)

@@ -12,6 +12,8 @@ from knotopt.cable.cut import Cut, outer_cuts
 from knotopt.diagram.grid import GridDiagram
 from knotopt.supports.regions import Regions
 
+_ENTRIES_AT_ONCE = 1 << 20  # bounds the memory of arrays of active regions by turning points
+
 
 @dataclass(frozen=True)
 class LcfResult:
@@ -52,7 +54,7 @@ class LcfResult:
     @property
     def reduction_percent(self) -> float:
         """Share of the baseline's robots that is saved [percent, to one decimal]."""
-        return round(100 * (1 - self.robots / self.baseline), 1)
+        return round(100 * (self.baseline - self.robots) / self.baseline, 1)
 
     @property
     def placed_supports(self) -> tuple[tuple[int, int, int], ...]:
@@ -89,18 +91,20 @@ def lcf(cable: Cable, *, layered: bool = False) -> LcfResult:
     (5, ((3, 3, 2), (4, 5, 2), (6, 2, 5)))
     """
     regions = Regions(cable)
-    active = regions.active
-    extremal = _extremal_points(regions, active)
-    walked, crossed, total = _boundary_walk(regions, active)
     selected: list[tuple[int, ...]] = [()] * len(regions)
     chosen = np.zeros(len(cable.path), dtype=bool)
-    for position, region in enumerate(active.tolist()):
-        points = sorted(set(extremal[position]), key=walked[position].__getitem__)
-        kept = _prune(points, crossed[position], int(total[position]))
-        selected[region] = tuple(point + 1 for point in kept)
-        chosen[kept] = True
+    batch = max(1, _ENTRIES_AT_ONCE // len(cable.path))
+    for low in range(0, len(regions.active), batch):
+        active = regions.active[low : low + batch]
+        extremal = _extremal_points(regions, active)
+        walked, crossed, total = _boundary_walk(regions, active)
+        for position, region in enumerate(active.tolist()):
+            points = sorted(set(extremal[position]), key=walked[position].__getitem__)
+            kept = _prune(points, crossed[position], int(total[position]))
+            selected[region] = tuple(point + 1 for point in kept)
+            chosen[kept] = True
     if layered:
-        chosen &= ~regions.inside[active].any(axis=0)
+        chosen &= ~regions.inside[regions.active].any(axis=0)
     chosen[[0, -1]] = False
     return LcfResult(
         regions, layered, tuple(selected), tuple((np.flatnonzero(chosen) + 1).tolist())
@@ -123,7 +127,8 @@ def lcf_by_cut(
 
 def best_cut(diagram: GridDiagram, *, layered: bool = False) -> LcfResult:
     """LCF on the outer cut with the fewest robots; ties in the order L+ L- R+ R- B+ B- T+ T-."""
-    return min(lcf_by_cut(diagram, layered=layered).values(), key=lambda result: result.robots)
+    results = (lcf(Cable(diagram, cut), layered=layered) for cut in outer_cuts(diagram))
+    return min(results, key=lambda result: result.robots)
 
 
 def format_supports(placed: Iterable[tuple[int, int, int]]) -> str:
@@ -139,7 +144,7 @@ def format_supports(placed: Iterable[tuple[int, int, int]]) -> str:
 
 def _extremal_points(regions: Regions, active: IntArray) -> list[list[int]]:
     """Turning points with max x, min x, max y, min y of B(l) (eq. 10); ties: first on the path."""
-    on = regions.on_boundary[active]
+    on = regions.on_boundary(active)
     extremes = []
     for coordinate in regions.cable.points.T:
         # 0 lies outside the 1-based grid on one side, size + 1 on the other.

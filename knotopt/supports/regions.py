@@ -93,11 +93,10 @@ class Regions:
         """Interior masks, packed to bits, shape (R, ceil(N * N / 8))."""
         return frozen(fill_interiors(self.cable, self.boundaries))
 
-    @cached_property
-    def on_boundary(self) -> BoolArray:
-        """Which turning points lie on each boundary, shape (R, n)."""
+    def on_boundary(self, regions: IntArray) -> BoolArray:
+        """Which turning points lie on the boundaries of the given regions, shape (len, n)."""
         times = self.cable.times
-        a, b = self.boundaries.a[:, :, None], self.boundaries.b[:, :, None]
+        a, b = self.boundaries.a[regions, :, None], self.boundaries.b[regions, :, None]
         on: BoolArray = ((a[:, 0] <= times) & (times <= a[:, 1])) | (
             (b[:, 0] <= times) & (times <= b[:, 1])
         )
@@ -134,7 +133,7 @@ class Regions:
     def __getitem__(self, index: int) -> Region:
         boundaries = self.boundaries
         pocket = bool(boundaries.is_pocket[index])
-        on = np.flatnonzero(self.on_boundary[index])
+        on = np.flatnonzero(self.on_boundary(np.array([index])))
         walked = boundaries.position(np.full(len(on), index), self.cable.times[on])
         threaded_by = int(self.threaded_by[index])
         intervals = [boundaries.a[index], boundaries.b[index]] if pocket else [boundaries.a[index]]
