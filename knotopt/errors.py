@@ -35,6 +35,10 @@ class MissingExtraError(KnotoptError):
     def __init__(self, package: str, extra: str, purpose: str) -> None:
         super().__init__(
             f"{purpose} needs {package}, which is not installed; "
-            f"install it with: pip install 'knotopt[{extra}]' "
-            f"(in a clone: pip install '.[{extra}]')"
+            f"install it with: {install_line(extra)}"
         )
+
+
+def install_line(extra: str) -> str:
+    """The line that installs an optional extra."""
+    return f"pip install 'knotopt[{extra}]' (in a clone: pip install '.[{extra}]')"

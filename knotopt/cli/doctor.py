@@ -5,6 +5,7 @@ from __future__ import annotations
 import typer
 
 from knotopt.cli.output import JsonOption, print_json, print_table
+from knotopt.errors import install_line
 
 EXTRAS = {"viz": "matplotlib", "knotinfo": "database_knotinfo"}
 PACKAGES = ("knotopt", "numpy", "scipy", "networkx", "casadi", "cvxpy", "highspy", "ortools")
@@ -32,7 +33,7 @@ def doctor(as_json: JsonOption = False) -> None:
     extras = {
         extra: version(package)
         if importlib.util.find_spec(package)
-        else f"not installed: pip install 'knotopt[{extra}]'"
+        else f"not installed: {install_line(extra)}"
         for extra, package in EXTRAS.items()
     }
     if as_json:

@@ -11,7 +11,7 @@ from knotopt.errors import GridError
 from knotopt.supports.boundary import Boundaries
 
 MAX_GIBIBYTES = 2  # enough for T(250,251)
-_CELLS_AT_ONCE = 1 << 22  # bounds the memory of one batch of flood fills to about 40 MB
+_CELLS_AT_ONCE = 1 << 22  # bounds the memory of one batch of flood fills to some 100 MB
 
 # 4 neighbours within a region's own plane, none across planes: one labelling fills many regions.
 _PLANE_NEIGHBOURS = np.zeros((3, 3, 3), dtype=bool)
