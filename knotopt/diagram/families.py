@@ -74,7 +74,7 @@ def random_knot(size: int, seed: int) -> GridDiagram:
     True
     """
     _check_size(size)
-    generator = random.Random(seed)
+    generator = random.Random(int(seed))
     columns = generator.sample(range(1, size + 1), size)
     rows = generator.sample(range(1, size + 1), size)
     minus, plus = [0] * size, [0] * size

@@ -82,15 +82,15 @@ def find_boundaries(cable: Cable) -> Boundaries:
     # Pocket k is closed by the strand that runs from the k-th second visit to the next one.
     start, end = second[:-1], second[1:]
     low, high = np.minimum(first[:-1], first[1:]), np.maximum(first[:-1], first[1:])
-    disjoint = high < start
     # Interval A must be a single arc of the diagram laid so far: no visit strictly inside it of a
-    # crossing that is complete when the pocket closes.
+    # crossing that is complete when the pocket closes. (So A also ends before B starts: otherwise
+    # the start of B, which completes its crossing, would lie inside A.)
     visits, index, _ = cable.visits
     complete = np.append(crossings.second[index], cable.length)  # reduceat needs a last entry
     inside = np.stack((np.searchsorted(visits, low) + 1, np.searchsorted(visits, high)), axis=1)
     occupied = inside[:, 0] < inside[:, 1]
     soonest = np.minimum.reduceat(complete, inside.ravel())[::2] if count > 1 else end
-    kept = np.flatnonzero(disjoint & ~(occupied & (soonest <= end)))
+    kept = np.flatnonzero(~(occupied & (soonest <= end)))
 
     # B starts at the crossing where A ends; that is the k-th one exactly if A runs backward.
     forward = first[kept] > first[kept + 1]
