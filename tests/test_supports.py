@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from strategies import cables
 
-from benchmarks.lcf_by_definition import slow_lcf, slow_regions
+from benchmarks.lcf_by_definition import slow_lcf
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import crossing_free_cuts
 from knotopt.catalogue.knots import shipped_knots
@@ -21,6 +21,7 @@ from knotopt.errors import GridError
 from knotopt.supports import interior
 from knotopt.supports.lcf import best_cut, lcf, lcf_by_cut
 from knotopt.supports.regions import Regions
+from knotopt.verify.regions import define_regions
 
 TABLE1: list[dict[str, Any]] = json.loads(
     (Path(__file__).parent / "data" / "table1_expected.json").read_text()
@@ -31,7 +32,7 @@ def assert_regions_as_defined(cable: Cable) -> None:
     size = cable.diagram.size
     slow = {
         (region.kind, region.walk): (region.apexes, region.interior, region.threaded_by)
-        for region in slow_regions(list(cable.path), size)
+        for region in define_regions(list(cable.path), size)
     }
     fast = {}
     for region in Regions(cable):

@@ -52,6 +52,11 @@ class Region:
     threaded_by: int | None
 
     @property
+    def name(self) -> str:
+        """Kind and crossings (counted from 1), such as `loop c2` or `pocket c1 c3`."""
+        return " ".join([str(self.kind), *(f"c{index + 1}" for index in self.apexes)])
+
+    @property
     def is_active(self) -> bool:
         """Whether the region must be kept open."""
         return self.threaded_by is not None

@@ -1,0 +1,146 @@
+"""CP-SAT of OR-tools.
+
+With one thread and no time limit its answer depends on the instance and the seed alone.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import ortools
+from ortools.sat.python import cp_model
+
+from formulations.instance import Instance
+from formulations.solution import (
+    Answer,
+    Enumeration,
+    Feature,
+    Limits,
+    Solution,
+    Status,
+    checked,
+)
+
+_STATUS = {
+    cp_model.OPTIMAL: Status.OPTIMAL,
+    cp_model.FEASIBLE: Status.FEASIBLE,
+    cp_model.INFEASIBLE: Status.INFEASIBLE,
+    cp_model.UNKNOWN: Status.UNKNOWN,
+}
+SMALL = 200  # variables
+
+
+class CpSat:
+    """Clause learning with linear relaxations; takes a start, gives a bound, enumerates."""
+
+    name = "cp-sat"
+    features = frozenset(Feature)
+
+    def solve(self, instance: Instance, limits: Limits) -> Solution:
+        """Minimise; Ctrl-C is caught by the solver, which returns the best solution so far."""
+        began = time.perf_counter()
+        model = _model(instance)
+        terms = [(j, weight) for j, weight in enumerate(instance.objective) if weight]
+        model.Proto().objective.vars.extend([j for j, _ in terms])
+        model.Proto().objective.coeffs.extend([weight for _, weight in terms])
+        start = None
+        if instance.start is not None:
+            start = instance.complete(instance.start).tolist()
+            model.Proto().solution_hint.vars.extend(range(len(start)))
+            model.Proto().solution_hint.values.extend(start)
+        solver = _solver(limits)
+        if len(instance.variables) <= SMALL:
+            # On instances this small the time goes into presolve, symmetry and linear relaxations.
+            solver.parameters.cp_model_presolve = False
+            solver.parameters.symmetry_level = 0
+            solver.parameters.linearization_level = 0
+        first = _First()
+        build_seconds = time.perf_counter() - began
+        began = time.perf_counter()
+        raw = solver.solve(model, first if start is not None else None)
+        answer = Answer(
+            _STATUS.get(raw, Status.ERROR),
+            solver.status_name(raw),
+            solve_seconds=time.perf_counter() - began,
+        )
+        if answer.status in (Status.OPTIMAL, Status.FEASIBLE):
+            answer.values = list(solver.response_proto.solution)
+        if answer.status is not Status.ERROR:
+            answer.bound = solver.best_objective_bound
+        if start is not None:
+            answer.start_accepted = first.values == start
+        return checked(
+            answer, instance, limits, build_seconds=build_seconds, solver=self._version()
+        )
+
+    def enumerate(self, instance: Instance, limits: Limits, count: int) -> Enumeration:
+        """Every set that satisfies the rows, `count` at most."""
+        solver = _solver(limits)
+        solver.parameters.num_workers = 1
+        solver.parameters.enumerate_all_solutions = True
+        every = _All(instance.decisions, count)
+        raw = solver.solve(_model(instance), every)
+        complete = raw in (cp_model.OPTIMAL, cp_model.INFEASIBLE)
+        return Enumeration(tuple(sorted(every.sets)[:count]), complete and len(every.sets) <= count)
+
+    def _version(self) -> str:
+        return f"{self.name} (ortools {ortools.__version__})"
+
+
+class _First(cp_model.CpSolverSolutionCallback):
+    """Keeps the first solution found."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.values: list[int] | None = None
+
+    def on_solution_callback(self) -> None:
+        if self.values is None:
+            self.values = list(self.response_proto.solution)
+
+
+class _All(cp_model.CpSolverSolutionCallback):
+    """Collects the decisions of every solution, one more than asked for at most."""
+
+    def __init__(self, decisions: int, count: int) -> None:
+        super().__init__()
+        self.decisions, self.count = decisions, count
+        self.sets: set[tuple[int, ...]] = set()
+
+    def on_solution_callback(self) -> None:
+        values = self.response_proto.solution
+        self.sets.add(tuple(j + 1 for j in range(self.decisions) if values[j]))
+        if len(self.sets) > self.count:
+            self.stop_search()
+
+
+def _model(instance: Instance) -> cp_model.CpModel:
+    model = cp_model.CpModel()
+    proto: Any = model.Proto()
+    for _ in instance.variables:
+        proto.variables.add().domain.extend((0, 1))
+    for row in instance.rows:
+        references = [x - 1 if x > 0 else x for x in row.literals]  # not x_j is written -j - 1
+        count = len(references)
+        if row.at_least == 1:
+            proto.constraints.add().bool_or.literals.extend(references)
+        elif row.at_least == count - 1:
+            proto.constraints.add().at_most_one.literals.extend([-x - 1 for x in references])
+        elif row.at_least > 0:
+            linear = proto.constraints.add().linear
+            linear.vars.extend([abs(x) - 1 for x in row.literals])
+            linear.coeffs.extend([1 if x > 0 else -1 for x in row.literals])
+            negative = sum(x < 0 for x in row.literals)
+            linear.domain.extend((row.at_least - negative, count))
+    return model
+
+
+def _solver(limits: Limits) -> cp_model.CpSolver:
+    solver = cp_model.CpSolver()
+    solver.parameters.num_workers = limits.threads
+    solver.parameters.random_seed = limits.seed
+    solver.parameters.relative_gap_limit = limits.gap
+    if limits.seconds is not None:
+        solver.parameters.max_time_in_seconds = limits.seconds
+    return solver

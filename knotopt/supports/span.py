@@ -1,0 +1,393 @@
+"""Formulation `span`, compiled from a cable: the taut cable itself, whose crossings move.
+
+Between two robots the cable is straight. A strand threads a region at the first turning point q that
+it meets inside. A threaded region survives if
+
+- no span within its boundary closes on a threading point (as a chord does in `opening`);
+- at each of its crossings c the two spans that cover c's two visits still cross, at c', and moving
+  the corner from c to c' sweeps over no threading point: the closed curve "from the robot before
+  the corner along the grid over c to the robot after it, and back over c'" has winding number 0;
+- the new edges at the corner stay r away from every threading point.
+
+If the last of these spans ends only after the leader enters the region, at x_in, the cable trails
+behind the leader: its last span is the chord from its robot d to x_in. Spans cross inside both; only
+where the leader enters at the region's own last crossing may the tether end on the other. A pocket may have a side
+without robots: then one span carries both its crossings, and the three spans are judged together.
+For a loop this is the definition by winding numbers of the whole polygon, as one corner moves.
+
+Quantities at a moved crossing are exact: c' = (X, Y) / D in integers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from formulations.span import Conflict, SpanProgram
+from formulations.team import Team
+from knotopt.cable.cable import BoolArray, Cable, IntArray
+from knotopt.supports.opening import (
+    FloatArray,
+    cross,
+    crossings_of_ray,
+    path_turns,
+    squared_distance,
+    stretch_margins,
+)
+from knotopt.supports.regions import Regions
+from knotopt.supports.threading import Threading, threading_points
+
+
+@dataclass(frozen=True, eq=False)
+class _Ends:
+    """Spans over one visit of a crossing, each with a robot (its anchor) on the boundary.
+
+    spans: (S, 2) turning points (0-based); anchor: (S,), the end that lies on the boundary;
+    visit: the time covered.
+    """
+
+    spans: IntArray
+    anchor: IntArray
+    visit: int
+
+
+@dataclass(frozen=True, eq=False)
+class _Chords:
+    """Straight spans as they lie when the leader threads: start, end (S, 2).
+
+    at_end (S,): whether the chord is a tether that ends where the strand crosses itself to enter.
+    """
+
+    start: IntArray
+    end: IntArray
+    at_end: BoolArray
+
+
+@dataclass(frozen=True, eq=False)
+class _Thread:
+    """One threading point q and the time and place at which the leader enters."""
+
+    q: IntArray
+    index: int
+    entry: int
+
+
+def compile_span(
+    regions: Regions,
+    mode: Threading = Threading.OVER_UNDER,
+    team: Team | None = None,
+    start: tuple[int, ...] | None = None,
+    *,
+    pockets: bool = True,
+) -> SpanProgram:
+    """The program `span` of a cable.
+
+    Parameters
+    ----------
+    regions : Regions
+    mode : Threading
+    team : Team, optional
+    start : tuple of int, optional
+        Turning points (1-based) of a first guess.
+    pockets : bool
+        Whether pockets must survive, too, or loops only.
+
+    Notes
+    -----
+    O(R K n^4) time and O(n^4) memory at worst for R active regions with K threading points.
+
+    Examples
+    --------
+    >>> from knotopt.diagram.families import torus_knot
+    >>> program = compile_span(Regions(Cable(torus_knot(2, 3), "L+")))
+    >>> program.points, [conflict.origin for conflict in program.conflicts]
+    (10, ['loop c1', 'loop c2'])
+    """
+    cable = regions.cable
+    count = len(cable.path)
+    threading = threading_points(regions, mode).first_of_strands()
+    forbidden = np.full((count + 1, count + 1), np.inf)
+    conflicts: list[Conflict] = []
+    for index in np.unique(threading.region).tolist():
+        pocket = bool(regions.boundaries.is_pocket[index])
+        if pocket and not pockets:
+            continue
+        of_region = threading.region == index
+        threads = [
+            _Thread(cable.points[point], point, int(entry))
+            for point, entry in zip(
+                threading.point[of_region].tolist(), threading.entry[of_region], strict=True
+            )
+        ]
+        _forbid_within(regions, index, threads, forbidden)
+        compile_region = _pocket if pocket else _loop
+        conflicts.extend(compile_region(regions, index, threads, forbidden))
+    return SpanProgram(
+        name=f"span, {mode}, cut {cable.cut}",
+        points=count,
+        forbidden=forbidden,
+        conflicts=tuple(conflicts),
+        team=team or Team(),
+        start=start,
+    )
+
+
+def _loop(
+    regions: Regions, index: int, threads: list[_Thread], forbidden: FloatArray
+) -> Iterator[Conflict]:
+    low, high = regions.boundaries.a[index].tolist()
+    _forbid_covering(regions.cable, (low, high), forbidden)
+    first, second = _leaving(regions.cable, low, high), _arriving(regions.cable, low, high)
+    yield _corner(regions.cable, first, second, threads, high, regions[index].name)
+
+
+def _pocket(
+    regions: Regions, index: int, threads: list[_Thread], forbidden: FloatArray
+) -> Iterator[Conflict]:
+    cable, name = regions.cable, regions[index].name
+    a, b = regions.boundaries.a[index].tolist(), regions.boundaries.b[index].tolist()
+    # The two corners, as pairs (visit on A, visit on B).
+    forward = bool(regions.boundaries.b_forward[index])
+    corners = [(a[0], b[1]), (a[1], b[0])] if forward else [(a[0], b[0]), (a[1], b[1])]
+    for corner in corners:
+        _forbid_covering(cable, corner, forbidden)
+    closes = max(a[1], b[1])
+
+    def ends(interval: list[int], visit: int) -> _Ends:
+        side = _leaving if visit == interval[0] else _arriving
+        return side(cable, *interval)
+
+    # Robots on both sides: each corner moves by itself.
+    for on_a, on_b in corners:
+        yield _corner(cable, ends(a, on_a), ends(b, on_b), threads, closes, name)
+    # No robot on one side: one span carries both corners.
+    (a0, b0), (a1, b1) = corners
+    whole_a, whole_b = _covering(cable, a), _covering(cable, b)
+    yield _side(cable, whole_a, (a0, a1), (ends(b, b0), ends(b, b1)), threads, closes, name)
+    yield _side(cable, whole_b, (b0, b1), (ends(a, a0), ends(a, a1)), threads, closes, name)
+    # No robot on either side: two straight spans meet once at most.
+    none = np.zeros((len(whole_a), len(whole_b)))
+    yield Conflict(whole_a + 1, whole_b + 1, None, none, name)
+
+
+def _first_after(cable: Cable, time: int) -> int:
+    return int(np.searchsorted(cable.times, time))  # a crossing's time is no turning point's
+
+
+def _pairs(first: range, second: range) -> IntArray:
+    grid = np.meshgrid(np.array(first), np.array(second), indexing="ij")
+    return np.stack(grid, axis=-1).reshape(-1, 2).astype(np.int64)
+
+
+def _leaving(cable: Cable, low: int, high: int) -> _Ends:
+    """Spans over `low` that end at a robot within the interval."""
+    i, j = _first_after(cable, low), _first_after(cable, high)
+    spans = _pairs(range(i), range(i, j))
+    return _Ends(spans, spans[:, 1], low)
+
+
+def _arriving(cable: Cable, low: int, high: int) -> _Ends:
+    """Spans over `high` that start at a robot within the interval."""
+    i, j = _first_after(cable, low), _first_after(cable, high)
+    spans = _pairs(range(i, j), range(j, len(cable.path)))
+    return _Ends(spans, spans[:, 0], high)
+
+
+def _covering(cable: Cable, interval: list[int]) -> IntArray:
+    """Spans over a whole interval."""
+    i, j = _first_after(cable, interval[0]), _first_after(cable, interval[1])
+    return _pairs(range(i), range(j, len(cable.path)))
+
+
+def _forbid_covering(cable: Cable, visits: tuple[int, int], forbidden: FloatArray) -> None:
+    """A span over both visits of a crossing loses it."""
+    spans = _covering(cable, sorted(visits)) + 1
+    forbidden[spans[:, 0], spans[:, 1]] = 0.0
+
+
+def _forbid_within(
+    regions: Regions, index: int, threads: list[_Thread], forbidden: FloatArray
+) -> None:
+    """Spans within the boundary must not close on a threading point."""
+    cable = regions.cable
+    for low, high in (regions.boundaries.a[index].tolist(), regions.boundaries.b[index].tolist()):
+        inside = np.arange(_first_after(cable, low), _first_after(cable, high))
+        i, j = np.triu_indices(len(inside), k=2)
+        u, w = inside[i], inside[j]
+        for thread in threads:
+            q = np.full(len(u), thread.index)
+            margins = stretch_margins(cable, cable.times[u], cable.times[w], q)
+            np.minimum.at(forbidden, (u + 1, w + 1), margins)
+
+
+def _laid(cable: Cable, spans: IntArray, thread: _Thread, closes: int) -> _Chords:
+    """The spans as chords when the leader threads the region, closed at time `closes`."""
+    start, end = cable.points[spans[:, 0]], cable.points[spans[:, 1]]
+    tether = (cable.times[spans[:, 1]] > thread.entry) & (thread.entry >= closes)
+    chord_end = np.where(tether[:, None], cable.cells[thread.entry], end)
+    return _Chords(start, chord_end, tether & (thread.entry == closes))
+
+
+@dataclass(frozen=True, eq=False)
+class _Moved:
+    """Crossings c' = xy / d of chords of one list with chords of another; d > 0.
+
+    meets: whether they cross; along: numerator of c's place on the first chord (over d).
+    """
+
+    xy: IntArray
+    d: IntArray
+    meets: BoolArray
+    along: IntArray
+
+
+def _meet(first: _Chords, second: _Chords) -> _Moved:
+    """All crossings, shape (first, second): inside both chords, or at an end that counts."""
+    a, u = first.start[:, None], (first.end - first.start)[:, None]
+    c, v = second.start[None], (second.end - second.start)[None]
+    d = cross(u, v)
+    s, t = cross(c - a, v), cross(c - a, u)
+    s, t, d = s * np.sign(d), t * np.sign(d), np.abs(d)
+    meets = (d > 0) & (s > 0) & (t > 0)
+    meets &= (s < d) | (first.at_end[:, None] & (s == d))
+    meets &= (t < d) | (second.at_end[None] & (t == d))
+    d = np.where(meets, d, 1)
+    return _Moved(a * d[..., None] + u * s[..., None], d, meets, s)
+
+
+def _ray_to(anchor: IntArray, moved: _Moved, q: IntArray) -> IntArray:
+    """Signed crossings of the segments anchor -> c' with the ray from q to the right."""
+    d = moved.d[..., None]
+    return crossings_of_ray(anchor * d, moved.xy, q * d)
+
+
+def _distance_to(anchor: IntArray, moved: _Moved, q: IntArray) -> FloatArray:
+    """Squared distances of q from the segments anchor - c', exact up to one rounding."""
+    along = moved.xy - anchor * moved.d[..., None]  # times d
+    offset = q - anchor
+    beyond = q * moved.d[..., None] - moved.xy  # times d
+    length = (along * along).sum(axis=-1)  # times d^2
+    dot = (along * offset).sum(axis=-1)  # times d
+    side = cross(along, offset)  # times d
+    found: FloatArray = np.where(
+        dot <= 0,
+        (offset * offset).sum(axis=-1),
+        np.where(
+            dot * moved.d >= length,
+            (beyond * beyond).sum(axis=-1) / (moved.d * moved.d),
+            side * side / np.maximum(length, 1),
+        ),
+    )
+    return found
+
+
+def _corner(
+    cable: Cable, first: _Ends, second: _Ends, threads: list[_Thread], closes: int, origin: str
+) -> Conflict:
+    """Two spans that must keep one crossing, each with a robot on the boundary.
+
+    Closed curve: from the second's anchor along the grid over c to the first's, back over c'.
+    """
+    before, after = cable.points[first.anchor][:, None], cable.points[second.anchor][None]
+    times = cable.times
+    margins = np.full((len(first.spans), len(second.spans)), np.inf)
+    for thread in threads:
+        q = thread.q
+        moved = _meet(
+            _laid(cable, first.spans, thread, closes), _laid(cable, second.spans, thread, closes)
+        )
+        wound = (
+            path_turns(cable, times[second.anchor], second.visit, thread.index)[None]
+            + path_turns(cable, first.visit, times[first.anchor], thread.index)[:, None]
+            + _ray_to(before, moved, q)
+            - _ray_to(after, moved, q)
+        )
+        clear = np.minimum(_distance_to(before, moved, q), _distance_to(after, moved, q))
+        margins = np.minimum(margins, np.where(moved.meets & (wound == 0), clear, 0.0))
+    margins[_overlap(first.spans[:, None], second.spans[None])] = np.inf
+    return Conflict(first.spans + 1, second.spans + 1, None, margins, origin)
+
+
+def _side(
+    cable: Cable,
+    spans: IntArray,
+    corners: tuple[int, int],
+    ends: tuple[_Ends, _Ends],
+    threads: list[_Thread],
+    closes: int,
+    origin: str,
+) -> Conflict:
+    """One span that carries both crossings of a pocket, and the two spans that cross it.
+
+    Closed curve: from one anchor along the grid over both crossings to the other, back over the
+    moved ones. Arrays have shape (span, first end, second end) or broadcast to it.
+    """
+    first, second = ends
+    times = cable.times
+    before, after = cable.points[first.anchor][None], cable.points[second.anchor][None]
+    margins = np.full((len(spans), len(first.spans), len(second.spans)), np.inf)
+    for thread in threads:
+        q, turns = thread.q, partial(path_turns, cable, q=thread.index)
+        chords = _laid(cable, spans, thread, closes)
+        moved0 = _meet(chords, _laid(cable, first.spans, thread, closes))
+        moved1 = _meet(chords, _laid(cable, second.spans, thread, closes))
+        middle, shortest = _between(chords, moved0, moved1, q)
+        wound = (
+            turns(times[first.anchor], first.visit)[None, :, None]
+            + turns(*corners)
+            + turns(second.visit, times[second.anchor])[None, None]
+            + _ray_to(after, moved1, q)[:, None]
+            + middle
+            - _ray_to(before, moved0, q)[:, :, None]
+        )
+        clear = np.minimum(
+            _distance_to(before, moved0, q)[:, :, None], _distance_to(after, moved1, q)[:, None]
+        )
+        meets = moved0.meets[:, :, None] & moved1.meets[:, None]
+        clear = np.minimum(clear, shortest)
+        margins = np.minimum(margins, np.where(meets & (wound == 0), clear, 0.0))
+    apart = _overlap(first.spans[:, None], second.spans[None])[None]
+    apart = apart | _overlap(spans[:, None], first.spans[None])[:, :, None]
+    apart = apart | _overlap(spans[:, None], second.spans[None])[:, None]
+    margins[apart] = np.inf
+    return Conflict(first.spans + 1, second.spans + 1, spans + 1, margins, origin)
+
+
+def _between(
+    chords: _Chords, moved0: _Moved, moved1: _Moved, q: IntArray
+) -> tuple[IntArray, FloatArray]:
+    """The edge from the second moved crossing to the first, both on one chord.
+
+    Returns
+    -------
+    signed crossings with the ray from q to the right, and the squared distance of q from the
+    chord's line where its nearest point lies between the crossings (else infinite: one of the
+    crossings is nearest), both of shape (chord, first, second)
+    """
+    along, offset = chords.end - chords.start, q - chords.start
+    side = cross(along, offset)
+    length, dot = (along * along).sum(axis=1), (along * offset).sum(axis=1)
+    # The ray meets the chord's line if q lies to the left of it, seen upward.
+    hit = (side * np.sign(along[:, 1]) > 0).astype(np.int64)
+    below0, below1 = (moved.xy[..., 1] <= q[1] * moved.d for moved in (moved0, moved1))
+    turns = hit[:, None, None] * (
+        below1[:, None].astype(np.int64) - below0[:, :, None].astype(np.int64)
+    )
+    beyond0, beyond1 = (
+        np.sign(moved.along * length[:, None] - dot[:, None] * moved.d)
+        for moved in (moved0, moved1)
+    )
+    nearest_between = beyond0[:, :, None] * beyond1[:, None] < 0
+    distance = side * side / np.maximum(length, 1)
+    return turns, np.where(nearest_between, distance[:, None, None], np.inf)
+
+
+def _overlap(first: IntArray, second: IntArray) -> BoolArray:
+    """Whether two spans cannot both be part of one path."""
+    apart = (first[..., 1] <= second[..., 0]) | (second[..., 1] <= first[..., 0])
+    same = (first == second).all(axis=-1)
+    overlap: BoolArray = ~apart & ~same
+    return overlap

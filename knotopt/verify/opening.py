@@ -1,0 +1,172 @@
+"""Whether a set of supports keeps a cable open, by the definition of `opening`.
+
+For an active region the opening polygon runs through its apexes and the selected turning points on
+its boundary, in the order walked. For consecutive nodes u, w the chord uw closes on a threading
+point q if |q - uw| < r, or if the closed curve "boundary from u to w, chord back" winds round q.
+The region is r-open if no edge of its polygon closes on a threading point and at least 2 selected
+turning points lie strictly inside a loop, at least 1 on a pocket.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from knotopt.verify.geometry import squared_distance, winding_number
+from knotopt.verify.regions import Cell, DefinedRegion, define_regions, lay
+
+
+@dataclass(frozen=True)
+class Closure:
+    """A region that is not open, and why."""
+
+    region: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class OpeningReport:
+    """What a set of supports does to a cable.
+
+    Attributes
+    ----------
+    closures : tuple of Closure
+        Empty if every active region is r-open.
+    closed_regions : tuple of int
+        Indices of the regions that are not.
+    smallest_opening_squared : Fraction or None
+        Smallest squared distance of a threading point from an edge of its polygon [grid steps^2],
+        0 if a region is lost; None if there are no threading points.
+    """
+
+    closures: tuple[Closure, ...]
+    closed_regions: tuple[int, ...]
+    smallest_opening_squared: Fraction | None
+
+    @property
+    def is_open(self) -> bool:
+        """Whether every active region is r-open."""
+        return not self.closures
+
+
+def check_opening(
+    path: Sequence[Cell],
+    size: int,
+    supports: Collection[int],
+    openness: Fraction,
+    mode: str = "turning-point",
+    regions: Iterable[DefinedRegion] | None = None,
+) -> OpeningReport:
+    """Whether the supports keep every active region r-open.
+
+    Parameters
+    ----------
+    path : sequence of (column, row)
+        Turning points p_1 ... p_n.
+    size : int
+        Grid size N.
+    supports : collection of int
+        Turning points with a support robot (1-based).
+    openness : Fraction
+        r [grid steps].
+    mode : "turning-point" or "over-under"
+        Which turning points inside a region thread it; in `over-under` columns pass over rows.
+    regions : iterable of DefinedRegion, optional
+        Regions already at hand; by default all regions, by definition.
+
+    Examples
+    --------
+    >>> path = [(1, 5), (4, 5), (4, 2), (2, 2), (2, 4), (5, 4), (5, 1), (3, 1), (3, 3), (1, 3)]
+    >>> check_opening(path, 5, [3, 4, 5, 6], Fraction(1, 2)).is_open
+    True
+    >>> print(check_opening(path, 5, [4, 6], Fraction(1, 2)).closures[0].reason)
+    1 selected turning points on it, 2 needed
+    """
+    cells = lay(path)
+    corner = {cell: number for number, cell in enumerate(path, 1)}
+    selected = {path[number - 1] for number in supports} | {path[0], path[-1]}
+    closures: list[Closure] = []
+    closed = []
+    smallest: Fraction | None = None
+    for index, region in enumerate(define_regions(path, size) if regions is None else regions):
+        threading = list(threading_cells(region, path, cells, mode))
+        if not threading:
+            continue
+        opening, reasons = _examine(region, cells, corner, selected, threading, openness)
+        smallest = opening if smallest is None else min(smallest, opening)
+        closures += (Closure(region.name, reason) for reason in reasons)
+        if reasons:
+            closed.append(index)
+    return OpeningReport(tuple(closures), tuple(closed), smallest)
+
+
+def threading_cells(
+    region: DefinedRegion, path: Sequence[Cell], cells: Sequence[Cell], mode: str
+) -> Iterator[Cell]:
+    """Turning points that thread the region, in the order met."""
+    times = {cell: time for time, cell in enumerate(cells)}
+    for cell in path:
+        if cell not in region.interior or times[cell] < min(region.walk):
+            continue
+        if mode == "over-under":
+            into = times[cell]
+            while cells[into] in region.interior:
+                into -= 1
+            out = times[cell]
+            while out < len(cells) and cells[out] in region.interior:
+                out += 1
+            if out == len(cells) or _is_over(cells, into) == _is_over(cells, out):
+                continue
+        yield cell
+
+
+def _is_over(cells: Sequence[Cell], time: int) -> bool:
+    """Whether the strand at a crossing runs along a column, which passes over rows."""
+    return cells[time - 1][0] == cells[time + 1][0]
+
+
+def _examine(
+    region: DefinedRegion,
+    cells: Sequence[Cell],
+    corner: dict[Cell, int],
+    selected: Collection[Cell],
+    threading: Sequence[Cell],
+    openness: Fraction,
+) -> tuple[Fraction, list[str]]:
+    """Smallest squared opening of one region, and why it is not open."""
+    around = [cells[time] for time in region.walk]
+    if around[0] == around[-1]:
+        around.pop()
+    # Where two pieces of the boundary meet the walk has the apex twice.
+    around = [cell for k, cell in enumerate(around) if k == 0 or cell != around[k - 1]]
+    nodes = [k for k, cell in enumerate(around) if cell in selected or cell in region.apexes]
+    reasons = []
+    inside = sum(around[k] in selected for k in nodes)
+    needed = 2 if region.kind == "loop" else 1
+    if inside < needed:
+        reasons.append(f"{inside} selected turning points on it, {needed} needed")
+    smallest: Fraction | None = None
+    for k, u in enumerate(nodes):
+        w = nodes[(k + 1) % len(nodes)]
+        stretch = around[u : w + 1] if u < w else [*around[u:], *around[: w + 1]]
+        for q in threading:
+            distance = squared_distance(q, around[u], around[w])
+            what = f"the chord {_label(around[u], corner)} to {_label(around[w], corner)}"
+            where = f"p{corner[q]}"
+            if distance < openness**2:
+                reasons.append(
+                    f"{what} passes {where} at {float(distance) ** 0.5:.3f}, "
+                    f"closer than {float(openness):g}"
+                )
+            if distance == 0 or winding_number(stretch, q) != 0:
+                if distance > 0:
+                    reasons.append(f"{what} cuts {where} off")
+                distance = Fraction(0)
+            smallest = distance if smallest is None else min(smallest, distance)
+    assert smallest is not None
+    return smallest, reasons
+
+
+def _label(cell: Cell, corner: dict[Cell, int]) -> str:
+    return f"p{corner[cell]}" if cell in corner else f"apex [{cell[0]},{cell[1]}]"
