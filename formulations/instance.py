@@ -20,6 +20,7 @@ from scipy.sparse import csr_array
 
 IntArray = NDArray[np.int64]
 BoolArray = NDArray[np.bool_]
+FloatArray = NDArray[np.float64]
 FORMAT = "knotopt instance 1"
 
 
@@ -154,6 +155,20 @@ class Instance:
             "at most",
             f"at most {bound}",
         )
+
+    def packing_bound(self) -> int:
+        """A lower bound of how many decisions are 1, by rows that share no variable.
+
+        Greedy over the rows with positive decision literals only, shortest first.
+        """
+        used: set[int] = set()
+        bound = 0
+        for row in sorted(self.rows, key=lambda row: len(row.literals)):
+            positive = all(0 < x <= self.decisions for x in row.literals)
+            if positive and row.at_least > 0 and used.isdisjoint(row.literals):
+                used.update(row.literals)
+                bound += row.at_least
+        return bound
 
     def to_json(self) -> str:
         """The instance as JSON; the same instance gives the same text."""

@@ -16,9 +16,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
-from formulations.instance import Instance, IntArray, Row
+from formulations.instance import FloatArray, Instance, IntArray, Row
 from formulations.team import Team
 
 
@@ -47,14 +46,14 @@ class OpeningProgram:
     name: str
     points: int
     stretches: IntArray
-    margins: NDArray[np.float64]
+    margins: FloatArray
     origin: Callable[[int], str]
     at_least: tuple[tuple[tuple[int, ...], int, str], ...]
     team: Team = field(default_factory=Team)
     start: tuple[int, ...] | None = None
 
     @property
-    def levels(self) -> NDArray[np.float64]:
+    def levels(self) -> FloatArray:
         """Distinct squared margins above 0, ascending: the openness matters only between them."""
         return np.unique(self.margins[self.margins > 0])
 
@@ -111,4 +110,5 @@ class OpeningProgram:
         contains = inner[np.clip(last, 0, size - 1)] >= first
         longer = (inner[last] > first) | (shorter[last] >= first)
         implied |= (first <= last) & np.where(both, longer, contains)
-        return active[~implied]
+        needed: IntArray = active[~implied]
+        return needed

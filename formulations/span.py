@@ -10,12 +10,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
-from formulations.instance import BoolArray, Instance, IntArray, Row
+from formulations.instance import BoolArray, FloatArray, Instance, IntArray, Row
 from formulations.team import Team
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -80,8 +80,8 @@ class Team:
                 helper = first + len(definitions)
                 definitions.append(option)
                 helpers.append(helper)
-                for literal in option:  # helper implies each of its literals
-                    rows.append(Row((-helper, literal), 1, "reach", target.origin))
+                # A helper implies each of its literals.
+                rows += [Row((-helper, x), 1, "reach", target.origin) for x in option]
             # Reach: one of the options holds.
             rows.append(Row(tuple(helpers), 1, "reach", target.origin))
         return definitions, rows

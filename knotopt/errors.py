@@ -29,6 +29,18 @@ class OutputError(KnotoptError):
     """A result that cannot be written where, or in the format, that was asked for."""
 
 
+class RequirementError(KnotoptError):
+    """Something asked of a set of supports that no set can do, or that contradicts itself."""
+
+
+class SolverError(KnotoptError):
+    """A solver that does not exist, or is asked for what it cannot do."""
+
+
+class CertificateError(KnotoptError):
+    """A certificate that cannot be read or does not prove what it claims."""
+
+
 class MissingExtraError(KnotoptError):
     """An optional dependency is not installed: the message is the line that installs it."""
 

@@ -11,7 +11,8 @@ from typing import Any
 from knotopt.cable.staircase import find_staircases
 from knotopt.catalogue.table1_grids import Table1Grid, table1_grids
 from knotopt.diagram.grid import Mark
-from knotopt.supports.lcf import LcfResult, best_cut, format_supports
+from knotopt.supports.lcf import LcfResult, best_cut
+from knotopt.supports.support_set import format_supports
 
 NOTE = """\
 The paper shows its grids as pictures only, so which knots its rows show is not known: the knots \

@@ -5,10 +5,11 @@ With one thread and no time limit its answer depends on the instance and the see
 
 from __future__ import annotations
 
+import importlib.metadata
+import re
 import time
 from typing import Any
 
-import ortools
 from ortools.sat.python import cp_model
 
 from formulations.instance import Instance
@@ -23,12 +24,12 @@ from formulations.solution import (
 )
 
 _STATUS = {
-    cp_model.OPTIMAL: Status.OPTIMAL,
-    cp_model.FEASIBLE: Status.FEASIBLE,
-    cp_model.INFEASIBLE: Status.INFEASIBLE,
-    cp_model.UNKNOWN: Status.UNKNOWN,
+    "OPTIMAL": Status.OPTIMAL,
+    "FEASIBLE": Status.FEASIBLE,
+    "INFEASIBLE": Status.INFEASIBLE,
+    "UNKNOWN": Status.UNKNOWN,
 }
-SMALL = 200  # variables
+SMALL = 40  # variables
 
 
 class CpSat:
@@ -44,32 +45,35 @@ class CpSat:
         terms = [(j, weight) for j, weight in enumerate(instance.objective) if weight]
         model.Proto().objective.vars.extend([j for j, _ in terms])
         model.Proto().objective.coeffs.extend([weight for _, weight in terms])
-        start = None
+        solver = _solver(limits)
         if instance.start is not None:
             start = instance.complete(instance.start).tolist()
+            # A callback would say which solution came first, but with one Ctrl-C is not heard.
+            solver.parameters.log_search_progress = True
+            solver.parameters.log_to_stdout = False
+            solver.parameters.log_to_response = True
             model.Proto().solution_hint.vars.extend(range(len(start)))
             model.Proto().solution_hint.values.extend(start)
-        solver = _solver(limits)
         if len(instance.variables) <= SMALL:
             # On instances this small the time goes into presolve, symmetry and linear relaxations.
             solver.parameters.cp_model_presolve = False
             solver.parameters.symmetry_level = 0
             solver.parameters.linearization_level = 0
-        first = _First()
         build_seconds = time.perf_counter() - began
         began = time.perf_counter()
-        raw = solver.solve(model, first if start is not None else None)
+        solver.solve(model)
         answer = Answer(
-            _STATUS.get(raw, Status.ERROR),
-            solver.status_name(raw),
+            _STATUS.get(solver.status_name(), Status.ERROR),
+            solver.status_name(),
             solve_seconds=time.perf_counter() - began,
         )
         if answer.status in (Status.OPTIMAL, Status.FEASIBLE):
             answer.values = list(solver.response_proto.solution)
         if answer.status is not Status.ERROR:
             answer.bound = solver.best_objective_bound
-        if start is not None:
-            answer.start_accepted = first.values == start
+        if instance.start is not None:
+            log = solver.response_proto.solve_log
+            answer.start_accepted = re.search(r"^#1\s.*hint", log, re.MULTILINE) is not None
         return checked(
             answer, instance, limits, build_seconds=build_seconds, solver=self._version()
         )
@@ -80,24 +84,12 @@ class CpSat:
         solver.parameters.num_workers = 1
         solver.parameters.enumerate_all_solutions = True
         every = _All(instance.decisions, count)
-        raw = solver.solve(_model(instance), every)
-        complete = raw in (cp_model.OPTIMAL, cp_model.INFEASIBLE)
+        solver.solve(_model(instance), every)
+        complete = solver.status_name() in ("OPTIMAL", "INFEASIBLE")
         return Enumeration(tuple(sorted(every.sets)[:count]), complete and len(every.sets) <= count)
 
     def _version(self) -> str:
-        return f"{self.name} (ortools {ortools.__version__})"
-
-
-class _First(cp_model.CpSolverSolutionCallback):
-    """Keeps the first solution found."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.values: list[int] | None = None
-
-    def on_solution_callback(self) -> None:
-        if self.values is None:
-            self.values = list(self.response_proto.solution)
+        return f"{self.name} (ortools {importlib.metadata.version('ortools')})"
 
 
 class _All(cp_model.CpSolverSolutionCallback):

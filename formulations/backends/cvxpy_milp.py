@@ -50,8 +50,11 @@ class _CvxpyBackend(ABC):
             raw = self._run(chain, problem, data, limits)
         answer = self._answer(raw)
         answer.solve_seconds = time.perf_counter() - began
-        version = importlib.metadata.version(self.package)
-        solver = f"{self.name} ({self.package} {version}, cvxpy {cp.__version__})"
+        versions = ", ".join(
+            f"{package} {importlib.metadata.version(package)}"
+            for package in (self.package, "cvxpy")
+        )
+        solver = f"{self.name} ({versions})"
         return checked(answer, instance, limits, build_seconds=build_seconds, solver=solver)
 
     @abstractmethod
@@ -80,7 +83,15 @@ class Highs(_CvxpyBackend):
             """`run`, which cvxpy calls, cannot be interrupted; a thread of its own can."""
 
             def run(self) -> Any:
-                return self.joinSolve(self.startSolve())
+                self.HandleUserInterrupt = True
+                self.startSolve()
+                ended, status = False, None
+                while not ended:
+                    try:
+                        ended, status = self.wait(0.1)
+                    except KeyboardInterrupt:
+                        self.cancelSolve()
+                return status
 
         options: dict[str, Any] = {
             "threads": limits.threads,

@@ -36,47 +36,49 @@ class MaxSat:
 
     def solve(self, instance: Instance, limits: Limits) -> Solution:
         """Minimise; Ctrl-C ends with the start, if that is a solution, and the bound so far."""
-        from pysat.examples.rc2 import RC2
-        from pysat.formula import WCNF
-
         began = time.perf_counter()
-        formula = WCNF()
-        trivially_false = False
-        for clause in clauses(instance):
-            trivially_false |= not clause
-            formula.append(list(clause))
-        for variable, weight in enumerate(instance.objective, 1):
-            if weight:
-                formula.append([-variable], weight=weight)
+        hard = [list(clause) for clause in clauses(instance)]
         build_seconds = time.perf_counter() - began
         began = time.perf_counter()
-        if trivially_false:
-            answer = Answer(Status.INFEASIBLE, "empty clause")
+        if all(hard):
+            answer = _compute(instance, hard, limits)
         else:
-            with RC2(formula, solver="g4") as solver:
-                timer = threading.Timer(limits.seconds or 0, solver.interrupt)
-                if limits.seconds is not None:
-                    timer.start()
-                word = "interrupted"
-                try:
-                    model = solver.compute(expect_interrupt=True)
-                    if model is None and not solver.oracle.get_status() is None:
-                        word = "unsatisfiable"
-                except KeyboardInterrupt:
-                    model = None
-                finally:
-                    timer.cancel()
-                if model is not None:
-                    values = [int(literal > 0) for literal in model[: len(instance.variables)]]
-                    answer = Answer(Status.OPTIMAL, "optimum", values, solver.cost)
-                elif word == "unsatisfiable":
-                    answer = Answer(Status.INFEASIBLE, word)
-                else:
-                    answer = Answer(Status.UNKNOWN, word, bound=solver.cost)
+            answer = Answer(Status.INFEASIBLE, "empty clause")
         if answer.status is Status.UNKNOWN and instance.start is not None:
             values = instance.complete(instance.start).tolist()
-            if not instance.violated(values):
+            answer.start_accepted = not instance.violated(values)
+            if answer.start_accepted:
                 answer.status, answer.values = Status.FEASIBLE, values
         answer.solve_seconds = time.perf_counter() - began
-        solver_name = f"{self.name} (python-sat {importlib.metadata.version('python-sat')})"
-        return checked(answer, instance, limits, build_seconds=build_seconds, solver=solver_name)
+        solver = f"{self.name} (python-sat {importlib.metadata.version('python-sat')})"
+        return checked(answer, instance, limits, build_seconds=build_seconds, solver=solver)
+
+
+def _compute(instance: Instance, hard: list[list[int]], limits: Limits) -> Answer:
+    from pysat.examples.rc2 import RC2
+    from pysat.formula import WCNF
+
+    formula = WCNF()
+    formula.extend(hard)
+    for variable, weight in enumerate(instance.objective, 1):
+        if weight:
+            formula.append([-variable], weight=weight)
+    with RC2(formula, solver="g4") as solver:
+        timer = threading.Timer(limits.seconds or 0, solver.interrupt)
+        if limits.seconds is not None:
+            timer.start()
+        try:
+            model = solver.compute(expect_interrupt=True)
+        except KeyboardInterrupt:
+            return Answer(Status.UNKNOWN, "interrupted", bound=solver.cost)
+        finally:
+            timer.cancel()
+        if model is not None:
+            values = [0] * len(instance.variables)
+            for literal in model:
+                if 0 < literal <= len(values):
+                    values[literal - 1] = 1
+            return Answer(Status.OPTIMAL, "optimum", values, solver.cost)
+        if solver.oracle.get_status() is None:
+            return Answer(Status.UNKNOWN, "time limit", bound=solver.cost)
+        return Answer(Status.INFEASIBLE, "unsatisfiable")

@@ -39,7 +39,8 @@ def lcf(
     """
     from knotopt.cable.cut import Cut, crossing_free_cuts
     from knotopt.catalogue.lookup import find_knot
-    from knotopt.supports.lcf import best_cut, format_supports, lcf_by_cut
+    from knotopt.supports.lcf import best_cut, lcf_by_cut
+    from knotopt.supports.support_set import format_supports
 
     named = find_knot(knot)
     if cut == "all":

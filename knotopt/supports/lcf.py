@@ -11,12 +11,13 @@ from knotopt.cable.cable import Cable, IntArray
 from knotopt.cable.cut import Cut, outer_cuts
 from knotopt.diagram.grid import GridDiagram
 from knotopt.supports.regions import Regions
+from knotopt.supports.support_set import SupportSet
 
 _ENTRIES_AT_ONCE = 1 << 20  # bounds the memory of arrays of active regions by turning points
 
 
 @dataclass(frozen=True)
-class LcfResult:
+class LcfResult(SupportSet):
     """Supports that LCF selects on one cable.
 
     Attributes
@@ -40,26 +41,6 @@ class LcfResult:
     def cable(self) -> Cable:
         """The cable the supports belong to."""
         return self.regions.cable
-
-    @property
-    def robots(self) -> int:
-        """Robots after reduction: the supports and the two lifting robots."""
-        return len(self.supports) + 2
-
-    @property
-    def baseline(self) -> int:
-        """Robots before reduction: one at each of the 2N turning points."""
-        return len(self.cable.path)
-
-    @property
-    def reduction_percent(self) -> float:
-        """Share of the baseline's robots that is saved [percent, to one decimal]."""
-        return round(100 * (self.baseline - self.robots) / self.baseline, 1)
-
-    @property
-    def placed_supports(self) -> tuple[tuple[int, int, int], ...]:
-        """[index on the path (1-based), column, row] of each support."""
-        return tuple((index, *self.cable.path[index - 1]) for index in self.supports)
 
 
 def lcf(cable: Cable, *, layered: bool = False) -> LcfResult:
@@ -129,17 +110,6 @@ def best_cut(diagram: GridDiagram, *, layered: bool = False) -> LcfResult:
     """LCF on the outer cut with the fewest robots; ties in the order L+ L- R+ R- B+ B- T+ T-."""
     results = (lcf(Cable(diagram, cut), layered=layered) for cut in outer_cuts(diagram))
     return min(results, key=lambda result: result.robots)
-
-
-def format_supports(placed: Iterable[tuple[int, int, int]]) -> str:
-    """Placed supports as text.
-
-    Examples
-    --------
-    >>> format_supports([(3, 3, 2), (4, 5, 2)])
-    'p3[3,2] p4[5,2]'
-    """
-    return " ".join(f"p{index}[{column},{row}]" for index, column, row in placed)
 
 
 def _extremal_points(regions: Regions, active: IntArray) -> list[list[int]]:

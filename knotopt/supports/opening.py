@@ -127,7 +127,7 @@ def compile_opening(
 
 
 def _area(regions: Regions, active: IntArray) -> list[tuple[tuple[int, ...], int, str]]:
-    rows = {}
+    rows: dict[tuple[tuple[int, ...], int], int] = {}
     on = regions.on_boundary(active)
     for index, mask in zip(active.tolist(), on, strict=True):
         points = tuple((np.flatnonzero(mask) + 1).tolist())

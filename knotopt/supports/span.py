@@ -1,19 +1,20 @@
 """Formulation `span`, compiled from a cable: the taut cable itself, whose crossings move.
 
-Between two robots the cable is straight. A strand threads a region at the first turning point q that
-it meets inside. A threaded region survives if
+Between two robots the cable is straight. A strand threads a region at the first turning point q
+that it meets inside. A threaded region survives if
 
-- no span within its boundary closes on a threading point (as a chord does in `opening`);
+- no span within its boundary closes on q (as a chord does in `opening`);
 - at each of its crossings c the two spans that cover c's two visits still cross, at c', and moving
-  the corner from c to c' sweeps over no threading point: the closed curve "from the robot before
-  the corner along the grid over c to the robot after it, and back over c'" has winding number 0;
-- the new edges at the corner stay r away from every threading point.
+  the corner from c to c' does not sweep over q: the closed curve "from the robot before the corner
+  along the grid over c to the robot after it, and back over c'" has winding number 0 about q;
+- the new edges at the corner stay r away from q.
 
 If the last of these spans ends only after the leader enters the region, at x_in, the cable trails
-behind the leader: its last span is the chord from its robot d to x_in. Spans cross inside both; only
-where the leader enters at the region's own last crossing may the tether end on the other. A pocket may have a side
-without robots: then one span carries both its crossings, and the three spans are judged together.
-For a loop this is the definition by winding numbers of the whole polygon, as one corner moves.
+behind the leader: its last span is the chord from its robot d to x_in. Spans cross inside both;
+only where the leader enters at the region's own last crossing may the tether end on the other. A
+pocket may have a side without robots: then one span carries both its crossings, and the three
+spans are judged together. For a loop this is the definition by winding numbers of the whole
+polygon, as one corner moves.
 
 Quantities at a moved crossing are exact: c' = (X, Y) / D in integers.
 """
@@ -34,7 +35,6 @@ from knotopt.supports.opening import (
     cross,
     crossings_of_ray,
     path_turns,
-    squared_distance,
     stretch_margins,
 )
 from knotopt.supports.regions import Regions

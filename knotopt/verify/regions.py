@@ -1,4 +1,4 @@
-"""The regions of a cable by their definition, slowly: every pair of crossings, sets of cells, a queue.
+"""The regions of a cable by their definition, slowly: all pairs of crossings, sets, a queue.
 
 Loops (eq. 7), pockets (eq. 8), interiors (eq. 9) of the paper, from the path's turning points.
 """

@@ -17,7 +17,7 @@ move together.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -83,6 +83,7 @@ def check_span(
     supports: Collection[int],
     openness: Fraction,
     mode: str = "over-under",
+    regions: Iterable[DefinedRegion] | None = None,
     *,
     pockets: bool = True,
 ) -> OpeningReport:
@@ -90,7 +91,7 @@ def check_span(
 
     Parameters
     ----------
-    path, size, supports, openness, mode
+    path, size, supports, openness, mode, regions
         As for `check_opening`.
     pockets : bool
         Whether pockets must survive, too, or loops only.
@@ -110,7 +111,7 @@ def check_span(
     closures: list[Closure] = []
     closed = []
     smallest: Fraction | None = None
-    for index, region in enumerate(define_regions(path, size)):
+    for index, region in enumerate(define_regions(path, size) if regions is None else regions):
         if region.kind == "pocket" and not pockets:
             continue
         reasons: Reasons = []

@@ -1,0 +1,25 @@
+"""What is left of a time limit that several solves share."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+
+from formulations.solution import Limits
+
+LEAST = 1e-3  # a solver is always given some time [s]
+
+
+class Deadline:
+    """A time limit that starts now."""
+
+    def __init__(self, limits: Limits) -> None:
+        self.limits = limits
+        self.started = time.perf_counter()
+
+    def left(self) -> Limits:
+        """The same limits with the seconds that remain."""
+        if self.limits.seconds is None:
+            return self.limits
+        spent = time.perf_counter() - self.started
+        return replace(self.limits, seconds=max(LEAST, self.limits.seconds - spent))

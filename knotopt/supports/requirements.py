@@ -1,0 +1,153 @@
+"""What a set of supports must do: the formulation, the openness, and what the team asks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from fractions import Fraction
+
+from knotopt.errors import RequirementError
+from knotopt.supports.threading import Threading
+
+OPENNESS = Fraction(1, 2)  # default r [grid steps]
+
+
+class Formulation(StrEnum):
+    """Which regions must survive how."""
+
+    OPENING = "opening"
+    SPAN = "span"
+
+
+@dataclass(frozen=True)
+class Requirements:
+    """What is asked of a set of supports; everything after `threading` is off by default.
+
+    Parameters
+    ----------
+    formulation : Formulation
+        `opening`: polygons through the grid's crossings stay open. `span`: the taut cable itself,
+        whose crossings move, keeps them.
+    openness : Fraction, float or str, optional
+        r in (0, 1] [grid steps], in thousandths; 0.5 by default. Not with `max_robots`.
+    threading : Threading, optional
+        By default `turning-point` for `opening` and `over-under` for `span`.
+    separation : float, optional
+        Smallest distance between any two robots [grid steps].
+    payload : float, optional
+        Longest span between two consecutive robots, straight [grid steps].
+    reach : float, optional
+        When a region is threaded, some robot other than the leader, on the threaded span or on
+        the span being flown, is within this distance of the threading point [grid steps].
+    forbidden, forced : tuple of int
+        Turning points (1-based) that must not, or must, carry a robot.
+    max_robots : int, optional
+        At most so many robots, the two lifting ones included; the smallest opening is then
+        maximised instead of the number of robots minimised.
+
+    Raises
+    ------
+    RequirementError
+        A value out of range, or two options that contradict each other.
+
+    Examples
+    --------
+    >>> Requirements(openness=0.25).openness
+    Fraction(1, 4)
+    >>> Requirements(openness=1.5)
+    Traceback (most recent call last):
+    ...
+    knotopt.errors.RequirementError: the openness r must lie in (0, 1] grid steps, not 1.5
+    """
+
+    formulation: Formulation = Formulation.OPENING
+    openness: Fraction = OPENNESS
+    threading: Threading = Threading.TURNING_POINT
+    separation: float | None = None
+    payload: float | None = None
+    reach: float | None = None
+    forbidden: tuple[int, ...] = ()
+    forced: tuple[int, ...] = ()
+    max_robots: int | None = None
+
+    def __init__(
+        self,
+        formulation: Formulation | str = Formulation.OPENING,
+        openness: Fraction | float | str | None = None,
+        threading: Threading | str | None = None,
+        *,
+        separation: float | None = None,
+        payload: float | None = None,
+        reach: float | None = None,
+        forbidden: tuple[int, ...] = (),
+        forced: tuple[int, ...] = (),
+        max_robots: int | None = None,
+    ) -> None:
+        if openness is not None and max_robots is not None:
+            raise RequirementError(
+                "an openness and a largest number of robots exclude each other: with the latter "
+                "the smallest opening is maximised"
+            )
+        kind = _member(Formulation, formulation, "formulation")
+        default = Threading.OVER_UNDER if kind is Formulation.SPAN else Threading.TURNING_POINT
+        fields = {
+            "formulation": kind,
+            "openness": _openness(OPENNESS if openness is None else openness),
+            "threading": default
+            if threading is None
+            else _member(Threading, threading, "threading mode"),
+            "separation": _positive(separation, "the separation"),
+            "payload": _positive(payload, "the longest span"),
+            "reach": _positive(reach, "the reach"),
+            "forbidden": tuple(sorted(set(forbidden))),
+            "forced": tuple(sorted(set(forced))),
+            "max_robots": max_robots,
+        }
+        for name, value in fields.items():
+            object.__setattr__(self, name, value)
+        for point in self.forced:
+            if point in self.forbidden:
+                raise RequirementError(f"p{point} is both forced and forbidden")
+        if max_robots is not None and max_robots < 2:
+            raise RequirementError(f"two robots hold the cable's ends; at most {max_robots} cannot")
+
+    def check_points(self, count: int) -> None:
+        """Whether the points named exist on a path of `count` turning points.
+
+        Raises
+        ------
+        RequirementError
+            One does not, or an end of the cable is to have no robot.
+        """
+        for point in (*self.forced, *self.forbidden):
+            if not 1 <= point <= count:
+                raise RequirementError(f"p{point}: the cable's turning points are p1 to p{count}")
+        for end in (1, count):
+            if end in self.forbidden:
+                raise RequirementError(f"p{end} is an end of the cable: a lifting robot is there")
+
+
+def _member(kind: type[StrEnum], value: str, what: str) -> StrEnum:
+    try:
+        return kind(value)
+    except ValueError:
+        names = ", ".join(kind)
+        raise RequirementError(f"no {what} is named {value!r}: expected one of {names}") from None
+
+
+def _openness(value: Fraction | float | str) -> Fraction:
+    try:
+        openness = Fraction(str(value))
+    except (ValueError, ZeroDivisionError):
+        raise RequirementError(f"the openness r is a number, not {value!r}") from None
+    if not 0 < openness <= 1:
+        raise RequirementError(f"the openness r must lie in (0, 1] grid steps, not {value}")
+    if (openness * 1000).denominator != 1:
+        raise RequirementError(f"the openness r is given in thousandths, not as {value}")
+    return openness
+
+
+def _positive(value: float | None, what: str) -> float | None:
+    if value is not None and not 0 < value < float("inf"):
+        raise RequirementError(f"{what} must be a positive number of grid steps, not {value}")
+    return value
