@@ -55,11 +55,15 @@ def at_least(literals: Sequence[int], bound: int, fresh: Iterator[int]) -> Itera
     elif bound == 2:
         yield from (literals[:i] + literals[i + 1 :] for i in range(len(literals)))
     else:
-        yield from _at_most([-literal for literal in literals], len(literals) - bound, fresh)
+        yield from at_most([-literal for literal in literals], len(literals) - bound, fresh)
 
 
-def _at_most(literals: Sequence[int], bound: int, fresh: Iterator[int]) -> Iterator[Clause]:
-    """Sequential counter: register j after literal i is true if at least j + 1 of 0..i are."""
+def at_most(literals: Sequence[int], bound: int, fresh: Iterator[int]) -> Iterator[Clause]:
+    """Clauses that say: at most `bound` of the literals are true, 1 <= bound < their number.
+
+    Sequential counter: register (i, j) is true if at least j of the first i literals are. The
+    registers are drawn in the order (1, 1), (2, 1), (2, 2), ... up to the last but one literal.
+    """
     before: list[int] = []
     for position, literal in enumerate(literals[:-1]):
         registers = [next(fresh) for _ in range(min(bound, position + 1))]

@@ -46,6 +46,7 @@ class CpSat:
         model.Proto().objective.vars.extend([j for j, _ in terms])
         model.Proto().objective.coeffs.extend([weight for _, weight in terms])
         solver = _solver(limits)
+        start = []
         if instance.start is not None:
             start = instance.complete(instance.start).tolist()
             # A callback would say which solution came first, but with one Ctrl-C is not heard.
@@ -73,7 +74,8 @@ class CpSat:
             answer.bound = solver.best_objective_bound
         if instance.start is not None:
             log = solver.response_proto.solve_log
-            answer.start_accepted = re.search(r"^#1\s.*hint", log, re.MULTILINE) is not None
+            first = re.search(r"^#1\s.*hint", log, re.MULTILINE)
+            answer.start_accepted = first is not None and not instance.violated(start)
         return checked(
             answer, instance, limits, build_seconds=build_seconds, solver=self._version()
         )

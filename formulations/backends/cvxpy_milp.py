@@ -90,7 +90,7 @@ class Highs(_CvxpyBackend):
                     try:
                         ended, status = self.wait(0.1)
                     except KeyboardInterrupt:
-                        self.cancelSolve()
+                        self.cancelSolve()  # type: ignore[no-untyped-call]
                 return status
 
         options: dict[str, Any] = {

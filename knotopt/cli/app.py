@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from knotopt import __version__
-from knotopt.cli import doctor, knots, lcf, show, table1
+from knotopt.cli import doctor, knots, lcf, show, solve, table1
 from knotopt.errors import KnotoptError
 
 
@@ -45,6 +45,7 @@ def options(
 app.command("knots")(knots.knots)
 app.command("show")(show.show)
 app.command("lcf")(lcf.lcf)
+app.command("solve")(solve.solve)
 app.command("table1")(table1.table1)
 app.command("doctor")(doctor.doctor)
 

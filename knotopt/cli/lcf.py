@@ -73,10 +73,10 @@ def lcf(
         parsed = Cut.parse(cut, named.diagram.size)
         result = lcf_by_cut(named.diagram, layered=layered, cuts=[parsed])[parsed]
     if plot is not None:
-        from knotopt.plot.figures import lcf_figure, save_figure
+        from knotopt.plot.figures import save_figure, supports_figure
 
         title = f"{named.name}, cut {result.cable.cut}: {result.robots} robots"
-        save_figure(lcf_figure(result, title), plot)
+        save_figure(supports_figure(result.regions, result.supports, title), plot)
     if as_json:
         print_json({**_row(named.name, result), **_details(result)})
         return

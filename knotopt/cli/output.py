@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 import typer
+
+Item = TypeVar("Item")
 
 KnotArgument = Annotated[
     str,
@@ -26,6 +28,33 @@ PlotOption = Annotated[
 LayeredOption = Annotated[
     bool,
     typer.Option("--layered", help="Also drop supports that lie inside another active region."),
+]
+
+
+FormulationOption = Annotated[
+    str,
+    typer.Option(
+        help="opening (polygons through the grid's crossings) or span (the taut cable itself)."
+    ),
+]
+ThreadingOption = Annotated[
+    str | None,
+    typer.Option(
+        help="What threads a region: turning-point or over-under; by default the former for "
+        "opening, the latter for span.",
+        show_default=False,
+    ),
+]
+OpennessOption = Annotated[
+    float | None,
+    typer.Option("--r", help="Openness r in (0, 1] [grid steps]; default 0.5.", show_default=False),
+]
+SolverOption = Annotated[
+    str, typer.Option(help="cp-sat, highs, scip, maxsat or exhaustive (22 points at most).")
+]
+TimeLimitOption = Annotated[
+    float | None,
+    typer.Option(help="Stop after so many seconds.", metavar="S", show_default=False),
 ]
 
 
@@ -66,6 +95,17 @@ def print_table(columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
 def print_written(path: Path) -> None:
     """Say where a result was written."""
     print(f"written: {path}")
+
+
+def track(items: Iterable[Item], what: str, total: int) -> Iterator[Item]:
+    """The items, with a progress bar on the error stream while they are gone through."""
+    from rich.console import Console
+    from rich.progress import track as rich_track
+
+    console = Console(stderr=True)
+    yield from rich_track(
+        items, what, total, console=console, transient=True, disable=not console.is_terminal
+    )
 
 
 def print_note(text: str) -> None:

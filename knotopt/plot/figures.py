@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from knotopt.errors import OutputError
 from knotopt.files import write_atomically
 from knotopt.plot.cable import draw_cable, draw_regions, draw_robots
 from knotopt.supports.lcf import LcfResult
+from knotopt.supports.regions import Regions
 
 PANEL = 3.4  # width of a panel [inch]: one column of a two-column paper
 FORMATS = (".png", ".pdf", ".svg")
@@ -30,14 +32,14 @@ def cable_figure(cable: Cable, title: str) -> Figure:
     return figure
 
 
-def lcf_figure(result: LcfResult, title: str) -> Figure:
+def supports_figure(regions: Regions, supports: Collection[int], title: str) -> Figure:
     """One panel: supports, active regions shaded by layer, passive ones hatched."""
-    figure, (axes,) = _panels(1, result.cable)
-    regions = draw_regions(axes, result.regions)
-    draw_cable(axes, result.cable)
-    handles = draw_robots(axes, result.cable, result.supports)
+    figure, (axes,) = _panels(1, regions.cable)
+    shades = draw_regions(axes, regions)
+    draw_cable(axes, regions.cable)
+    handles = draw_robots(axes, regions.cable, supports)
     figure.suptitle(title, fontsize=9, parse_math=False)
-    figure.legend(handles=[*handles, *regions], loc="outside lower center", ncols=2, **_LEGEND)
+    figure.legend(handles=[*handles, *shades], loc="outside lower center", ncols=2, **_LEGEND)
     return figure
 
 
@@ -59,15 +61,27 @@ def before_after_figure(result: LcfResult, title: str) -> Figure:
 
 def save_figure(figure: Figure, path: Path) -> None:
     """Write a figure as .png (200 dpi), .pdf or .svg, atomically and the same bytes every time."""
-    suffix = path.suffix.lower()
-    if suffix not in FORMATS:
-        raise OutputError(f"{path}: pictures are written as {', '.join(FORMATS)}")
+    suffix = check_format(path)
     # Without a date and with a fixed salt, the same figure gives the same file.
     metadata = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}[suffix]
     buffer = io.BytesIO()
     with matplotlib.rc_context({"svg.hashsalt": "knotopt"}):
         figure.savefig(buffer, format=suffix[1:], dpi=200, metadata=metadata)
     write_atomically(path, buffer.getvalue())
+
+
+def check_format(path: Path) -> str:
+    """The suffix of a picture's file.
+
+    Raises
+    ------
+    OutputError
+        It is none of `FORMATS`.
+    """
+    suffix = path.suffix.lower()
+    if suffix not in FORMATS:
+        raise OutputError(f"{path}: pictures are written as {', '.join(FORMATS)}")
+    return suffix
 
 
 _LEGEND: dict[str, Any] = {

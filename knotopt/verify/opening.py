@@ -126,6 +126,61 @@ def _is_over(cells: Sequence[Cell], time: int) -> bool:
     return cells[time - 1][0] == cells[time + 1][0]
 
 
+def closing_clauses(
+    path: Sequence[Cell],
+    regions: Iterable[DefinedRegion],
+    openness: Fraction,
+    mode: str = "turning-point",
+) -> set[frozenset[int]]:
+    """What every r-open set satisfies, as clauses: literal +k (-k) says p_k is (not) selected.
+
+    For each pair of boundary nodes whose chord closes on a threading point: not both selected
+    (apexes always are) with nothing between. For each loop: all but any one of its turning points
+    hold a selected one; for each pocket: all of them do.
+    """
+    cells = lay(path)
+    corner = {cell: number for number, cell in enumerate(path, 1)}
+    clauses: set[frozenset[int]] = set()
+    for region in regions:
+        threading = list(threading_cells(region, path, cells, mode))
+        if not threading:
+            continue
+        around = _around(region, cells)
+        count = len(around)
+        apexes = [k for k, cell in enumerate(around) if cell in region.apexes]
+        for start, end in zip(apexes, [*apexes[1:], apexes[0] + count], strict=True):
+            # One side of the region, from apex to apex.
+            side = [around[k % count] for k in range(start, end + 1)]
+            nodes = [0, *(k for k in range(1, len(side) - 1) if side[k] in corner), len(side) - 1]
+            for i, u in enumerate(nodes):
+                for w in nodes[i + 2 :]:
+                    if any(_closes(side[u : w + 1], q, openness) for q in threading):
+                        between = {corner[side[k]] for k in nodes if u < k < w}
+                        ends = {-corner[side[k]] for k in (u, w) if side[k] in corner}
+                        clauses.add(frozenset(between | ends))
+        on = {corner[cell] for cell in around if cell in corner}
+        if region.kind == "loop":
+            clauses.update(frozenset(on - {left_out}) for left_out in on)
+        else:
+            clauses.add(frozenset(on))
+    return clauses
+
+
+def _around(region: DefinedRegion, cells: Sequence[Cell]) -> list[Cell]:
+    """Cells round the boundary; where two pieces of it meet the walk has the apex twice."""
+    around = [cells[time] for time in region.walk]
+    if around[0] == around[-1]:
+        around.pop()
+    return [cell for k, cell in enumerate(around) if k == 0 or cell != around[k - 1]]
+
+
+def _closes(stretch: Sequence[Cell], q: Cell, openness: Fraction) -> bool:
+    """Whether the chord between the ends of a boundary stretch closes on q."""
+    if squared_distance(q, stretch[0], stretch[-1]) < openness**2:
+        return True
+    return winding_number(stretch, q) != 0
+
+
 def _examine(
     region: DefinedRegion,
     cells: Sequence[Cell],
@@ -135,18 +190,14 @@ def _examine(
     openness: Fraction,
 ) -> tuple[Fraction, list[str]]:
     """Smallest squared opening of one region, and why it is not open."""
-    around = [cells[time] for time in region.walk]
-    if around[0] == around[-1]:
-        around.pop()
-    # Where two pieces of the boundary meet the walk has the apex twice.
-    around = [cell for k, cell in enumerate(around) if k == 0 or cell != around[k - 1]]
+    around = _around(region, cells)
     nodes = [k for k, cell in enumerate(around) if cell in selected or cell in region.apexes]
     reasons = []
     inside = sum(around[k] in selected for k in nodes)
     needed = 2 if region.kind == "loop" else 1
     if inside < needed:
         reasons.append(f"{inside} selected turning points on it, {needed} needed")
-    smallest: Fraction | None = None
+    distances: list[Fraction] = []
     for k, u in enumerate(nodes):
         w = nodes[(k + 1) % len(nodes)]
         stretch = around[u : w + 1] if u < w else [*around[u:], *around[: w + 1]]
@@ -159,13 +210,12 @@ def _examine(
                     f"{what} passes {where} at {float(distance) ** 0.5:.3f}, "
                     f"closer than {float(openness):g}"
                 )
-            if distance == 0 or winding_number(stretch, q) != 0:
-                if distance > 0:
-                    reasons.append(f"{what} cuts {where} off")
+            elif winding_number(stretch, q) != 0:
+                reasons.append(f"{what} cuts {where} off")
+            if distance > 0 and winding_number(stretch, q) != 0:
                 distance = Fraction(0)
-            smallest = distance if smallest is None else min(smallest, distance)
-    assert smallest is not None
-    return smallest, reasons
+            distances.append(distance)
+    return min(distances), reasons
 
 
 def _label(cell: Cell, corner: dict[Cell, int]) -> str:

@@ -1,0 +1,289 @@
+"""The smallest set over all cuts of a diagram, and over diagrams of the same knot.
+
+A bound found on one cable serves all: a cable whose lower bound reaches the best set so far is
+skipped, and the others are only asked for a smaller set.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+
+from formulations.backends import DEFAULT
+from formulations.solution import Limits, Status
+from formulations.timing import Deadline
+from knotopt.cable.cable import Cable
+from knotopt.cable.cut import Cut, crossing_free_cuts
+from knotopt.diagram.grid import GridDiagram
+from knotopt.diagram.moves import (
+    commute_columns,
+    commute_rows,
+    translate,
+)
+from knotopt.errors import MoveError
+from knotopt.supports.lcf import lcf
+from knotopt.supports.minimal import SMALLEST, MinimalSupports, compile_program, minimal_supports
+from knotopt.supports.requirements import Requirements
+
+
+@dataclass(frozen=True)
+class CutOutcome:
+    """What is known of one cut.
+
+    Attributes
+    ----------
+    cut : Cut
+    robots : int or None
+        Size of its smallest set found; None if it was skipped or has none.
+    bound : int or None
+        Proven lower bound of its robots; None if nothing is known, or no set exists.
+    status : Status
+        OPTIMAL with `robots` = `bound`; UNKNOWN with a bound alone if the cut cannot beat another.
+    """
+
+    cut: Cut
+    robots: int | None
+    bound: int | None
+    status: Status
+
+
+@dataclass(frozen=True)
+class CutSearch:
+    """The best cut of a diagram.
+
+    Attributes
+    ----------
+    best : MinimalSupports
+        On the first cut with the fewest robots. If no cut has a set, what is known of the first.
+    outcomes : tuple of CutOutcome
+        One for every cut, in order.
+    """
+
+    best: MinimalSupports
+    outcomes: tuple[CutOutcome, ...]
+
+    @property
+    def is_proven(self) -> bool:
+        """Whether no cut has a smaller set."""
+        if not self.best.is_proven:
+            return False
+        if self.best.requirements.max_robots is not None:
+            return all(outcome.status is not Status.UNKNOWN for outcome in self.outcomes)
+        return all(
+            outcome.status is Status.INFEASIBLE
+            or (outcome.bound is not None and outcome.bound >= self.best.robots)
+            for outcome in self.outcomes
+        )
+
+
+@dataclass(frozen=True)
+class DiagramSearch:
+    """The best diagram found among translations and commutations of a diagram.
+
+    Attributes
+    ----------
+    best : CutSearch
+    tried : int
+        Diagrams searched, the given one included.
+    seed : int
+    """
+
+    best: CutSearch
+    tried: int
+    seed: int
+
+
+def best_supports(
+    diagram: GridDiagram,
+    requirements: Requirements | None = None,
+    *,
+    cuts: Iterable[Cut] | None = None,
+    solver: str = DEFAULT,
+    limits: Limits | None = None,
+    canonical: bool = True,
+    better_than: int | None = None,
+) -> CutSearch:
+    """The smallest set of supports over the cuts of a diagram.
+
+    Parameters
+    ----------
+    diagram : GridDiagram
+    requirements : Requirements, optional
+    cuts : iterable of Cut, optional
+        By default every crossing-free one; ties are broken in their order.
+    solver, limits, canonical
+        As for `minimal_supports`; the time limit is for all cuts together.
+    better_than : int, optional
+        Only sets of fewer robots are of interest.
+
+    Examples
+    --------
+    >>> from knotopt.catalogue.lookup import find_knot
+    >>> search = best_supports(find_knot("9").diagram)
+    >>> search.best.robots, str(search.best.cable.cut), search.is_proven
+    (5, 'L+', True)
+    >>> [(str(o.cut), o.robots, o.bound) for o in search.outcomes[:3]]
+    [('L+', 5, 5), ('L-', None, 5), ('R+', None, 5)]
+    """
+    asked = requirements or Requirements()
+    deadline = Deadline(limits or Limits())
+    if asked.max_robots is not None:
+        return _widest_cut(diagram, asked, cuts, solver, deadline)
+    best: MinimalSupports | None = None
+    outcomes = []
+    incumbent = better_than
+    for cut in crossing_free_cuts(diagram) if cuts is None else cuts:
+        cable = Cable(diagram, cut)
+        if incumbent is not None:
+            program = compile_program(lcf(cable), asked)
+            packed = program.instance(SMALLEST).packing_bound()
+            if packed >= incumbent:
+                outcomes.append(CutOutcome(cut, None, packed, Status.UNKNOWN))
+                continue
+        result = minimal_supports(
+            cable,
+            asked,
+            solver=solver,
+            limits=deadline.left(),
+            canonical=False,
+            better_than=incumbent,
+        )
+        status, bound = result.solution.status, result.solution.bound
+        if status is Status.INFEASIBLE and incumbent is not None:
+            status, bound = Status.UNKNOWN, incumbent
+        robots = result.robots if result.found else None
+        outcomes.append(CutOutcome(cut, robots, bound, status))
+        if best is None or (result.found and (not best.found or result.robots < best.robots)):
+            best = result
+        if result.found:
+            incumbent = result.robots
+    if best is None:  # every cut was skipped: say so of the first one
+        best = minimal_supports(
+            Cable(diagram, outcomes[0].cut),
+            asked,
+            solver=solver,
+            limits=deadline.left(),
+            canonical=False,
+            better_than=incumbent,
+        )
+    elif better_than is None if not best.found else canonical:
+        best = minimal_supports(best.cable, asked, solver=solver, limits=deadline.left())
+    return CutSearch(best, tuple(outcomes))
+
+
+def supports_by_cut(
+    diagram: GridDiagram,
+    requirements: Requirements | None = None,
+    *,
+    cuts: Iterable[Cut] | None = None,
+    solver: str = DEFAULT,
+    limits: Limits | None = None,
+) -> Iterator[MinimalSupports]:
+    """The smallest set of every cut by itself; by default of every crossing-free one."""
+    deadline = Deadline(limits or Limits())
+    for cut in crossing_free_cuts(diagram) if cuts is None else cuts:
+        yield minimal_supports(
+            Cable(diagram, cut), requirements, solver=solver, limits=deadline.left()
+        )
+
+
+def best_diagram(
+    diagram: GridDiagram,
+    requirements: Requirements | None = None,
+    *,
+    budget: int,
+    seed: int = 0,
+    solver: str = DEFAULT,
+    limits: Limits | None = None,
+    progress: Callable[[int], None] | None = None,
+) -> DiagramSearch:
+    """The best set found over diagrams that translations and commutations give.
+
+    A random walk from the given diagram; grids stay of the same size. The number found is an upper
+    bound for the knot: other diagrams may do better.
+
+    Parameters
+    ----------
+    budget : int
+        How many different diagrams to search, the given one included.
+    seed : int
+    progress : callable, optional
+        Told after each diagram how many are done.
+    """
+    deadline = Deadline(limits or Limits())
+    best = best_supports(diagram, requirements, solver=solver, limits=deadline.left())
+    tried = 0
+    for tried, candidate in enumerate(_walk(diagram, budget, seed), 1):
+        if tried > 1:
+            search = best_supports(
+                candidate,
+                requirements,
+                solver=solver,
+                limits=deadline.left(),
+                better_than=best.best.robots if best.best.found else None,
+            )
+            if _is_better(search.best, best.best):
+                best = search
+        if progress is not None:
+            progress(tried)
+    return DiagramSearch(best, tried, seed)
+
+
+def _walk(diagram: GridDiagram, budget: int, seed: int) -> Iterator[GridDiagram]:
+    """Different diagrams met on a random walk, the given one first."""
+    random_source = random.Random(seed)
+    size = diagram.size
+    seen = {diagram}
+    yield diagram
+    stuck = 0
+    while len(seen) < budget and stuck < 100 * budget:
+        line = random_source.randint(1, size)
+        kind = random_source.random()
+        stuck += 1
+        try:
+            if kind < 0.4:
+                diagram = commute_columns(diagram, line)
+            elif kind < 0.8:
+                diagram = commute_rows(diagram, line)
+            else:
+                shift = random_source.randrange(size), random_source.randrange(size)
+                diagram = translate(diagram, *shift)
+        except MoveError:
+            continue
+        if diagram not in seen:
+            seen.add(diagram)
+            yield diagram
+
+
+def _widest_cut(
+    diagram: GridDiagram,
+    asked: Requirements,
+    cuts: Iterable[Cut] | None,
+    solver: str,
+    deadline: Deadline,
+) -> CutSearch:
+    """With a largest number of robots: the first cut with the largest smallest opening."""
+    best: MinimalSupports | None = None
+    outcomes = []
+    for cut in crossing_free_cuts(diagram) if cuts is None else cuts:
+        result = minimal_supports(Cable(diagram, cut), asked, solver=solver, limits=deadline.left())
+        robots = result.robots if result.found else None
+        outcomes.append(CutOutcome(cut, robots, result.solution.bound, result.solution.status))
+        if best is None or _is_better(result, best):
+            best = result
+    assert best is not None
+    return CutSearch(best, tuple(outcomes))
+
+
+def _is_better(result: MinimalSupports, other: MinimalSupports) -> bool:
+    """Fewer robots; with a largest number of robots: a larger smallest opening."""
+    if not (result.found and other.found):
+        return result.found
+    if result.requirements.max_robots is None:
+        return result.robots < other.robots
+    openings = [
+        float("inf") if each.smallest_opening is None else each.smallest_opening
+        for each in (result, other)
+    ]
+    return openings[0] > openings[1]
