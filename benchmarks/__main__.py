@@ -18,7 +18,7 @@ from rich.progress import track
 
 from benchmarks import lcf_catalogue, lcf_growth, startup  # noqa: F401 -- they register themselves
 from benchmarks.registry import BENCHMARKS, Benchmark
-from knotopt.files import write_atomically
+from knotopt.files import resumable_lines
 
 RESULTS = Path(__file__).parent / "results"
 app = typer.Typer(help=__doc__, no_args_is_help=True, pretty_exceptions_enable=False)
@@ -50,18 +50,12 @@ def run(
 def run_benchmark(benchmark: Benchmark, out: Path, *, smoke: bool = False) -> Path:
     """Measure every case not yet in the partial file; return the path of the complete one."""
     final = out / f"{benchmark.name}.jsonl"
-    partial = final.with_suffix(".jsonl.partial")
     header = {"benchmark": benchmark.name, "smoke": smoke, "machine": machine_facts()}
-    done = _measured_before(partial, header)
-    with partial.open("a", encoding="utf-8") as stream:
-        if not done:
-            stream.truncate(0)
-            stream.write(json.dumps(header) + "\n")
+    with resumable_lines(final, json.dumps(header), keep_header=True) as lines:
+        done = {json.dumps(json.loads(line)["case"]) for line in lines.done}
         for case in track(list(benchmark.cases(smoke)), benchmark.name):
             if json.dumps(case) not in done:
-                stream.write(json.dumps({"case": case, "result": benchmark.measure(case)}) + "\n")
-                stream.flush()
-    partial.replace(final)
+                lines.write(json.dumps({"case": case, "result": benchmark.measure(case)}))
     return final
 
 
@@ -74,18 +68,6 @@ def machine_facts() -> dict[str, Any]:
         "cores": os.cpu_count(),
         **{package: importlib.metadata.version(package) for package in packages},
     }
-
-
-def _measured_before(partial: Path, header: dict[str, Any]) -> set[str]:
-    """Cases in a partial file of the same benchmark, machine and versions; a torn line is cut."""
-    if not partial.exists():
-        return set()
-    first, *lines = partial.read_text(encoding="utf-8").split("\n")
-    if first != json.dumps(header):
-        return set()
-    whole = lines[:-1]  # what follows the last line end is empty or torn
-    write_atomically(partial, "\n".join([first, *whole, ""]))
-    return {json.dumps(json.loads(line)["case"]) for line in whole}
 
 
 if __name__ == "__main__":

@@ -84,6 +84,31 @@ def _highs() -> float:
     return float(problem.solve(solver=cp.HIGHS))  # type: ignore[no-untyped-call]
 
 
+def _scip() -> float:
+    import cvxpy as cp
+
+    x = cp.Variable(len(CYCLE), boolean=True)
+    problem = cp.Problem(cp.Minimize(x.sum()), [x[i] + x[j] >= 1 for i, j in CYCLE])
+    return float(problem.solve(solver=cp.SCIP))  # type: ignore[no-untyped-call]
+
+
+def _pysat() -> float:
+    from pysat.examples.rc2 import RC2
+    from pysat.formula import WCNF
+    from pysat.solvers import Solver
+
+    cover = [[i + 1, j + 1] for i, j in CYCLE]
+    formula = WCNF()
+    formula.extend(cover)
+    formula.extend([[-i - 1] for i in range(len(CYCLE))], weights=[1] * len(CYCLE))
+    with Solver(name="cadical195", bootstrap_with=[[1], [-1]], with_proof=True) as cadical:
+        if cadical.solve() or not cadical.get_proof():
+            return 0.0
+    with RC2(formula) as solver:
+        solver.compute()
+        return float(solver.cost)
+
+
 def _ipopt() -> float:
     import casadi as ca
 
@@ -97,6 +122,8 @@ def _ipopt() -> float:
 PROBES: dict[str, tuple[Callable[[], float], float]] = {
     "CP-SAT (ortools)": (_cp_sat, COVER),
     "HiGHS (cvxpy)": (_highs, COVER),
+    "SCIP (cvxpy)": (_scip, COVER),
+    "RC2 and CaDiCaL (pysat)": (_pysat, COVER),
     "IPOPT (casadi)": (_ipopt, DISTANCE),
 }
 """Solver to (its probe, the optimum it must find)."""

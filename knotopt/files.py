@@ -1,10 +1,16 @@
-"""Files that are either whole or not there: results land by atomic rename."""
+"""Files that are either whole or not there: results land by atomic rename.
+
+What takes long is collected beside its final place and goes on where it stopped.
+"""
 
 from __future__ import annotations
 
 import os
 import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import TextIO
 
 from knotopt.errors import OutputError
 
@@ -36,5 +42,46 @@ def write_atomically(path: Path, content: str | bytes) -> None:
             temporary.replace(path)
         finally:
             temporary.unlink(missing_ok=True)
+    except OSError as error:
+        raise OutputError(f"cannot write {path}: {error.strerror}") from error
+
+
+class Lines:
+    """Lines of a file in the making: those there already, and more to come."""
+
+    def __init__(self, done: list[str], stream: TextIO) -> None:
+        self.done = done
+        self._stream = stream
+
+    def write(self, line: str) -> None:
+        """Add one line, with or without its end; it survives whatever happens next."""
+        self._stream.write(line.rstrip("\n") + "\n")
+        self._stream.flush()
+
+
+@contextmanager
+def resumable_lines(path: Path, header: str, *, keep_header: bool = False) -> Iterator[Lines]:
+    """Collect the lines of a file, which lands under its name when all are there.
+
+    Until then, and if anything fails, they are in `PATH.partial` after a line with the header. A
+    later call with the same header finds them in `done`; a torn last line is dropped, and a file
+    with another header is started anew. The header stays in the file if `keep_header` says so.
+
+    Raises
+    ------
+    OutputError
+        The file cannot be written there.
+    """
+    partial = path.with_name(f"{path.name}.partial")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        first, *rest = partial.read_text(encoding="utf-8").split("\n") if partial.exists() else [""]
+        done = rest[:-1] if first == header else []  # what follows the last line end is torn
+        write_atomically(partial, "\n".join([header, *done, ""]))
+        with partial.open("a", encoding="utf-8") as stream:
+            yield Lines(done, stream)
+        whole = partial.read_text(encoding="utf-8")
+        write_atomically(path, whole if keep_header else whole.split("\n", 1)[1])
+        partial.unlink()
     except OSError as error:
         raise OutputError(f"cannot write {path}: {error.strerror}") from error

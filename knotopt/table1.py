@@ -1,18 +1,29 @@
-"""Table I of the paper, recomputed: robots before and after reduction by LCF."""
+"""Table I of the paper, recomputed: robots before and after reduction by LCF, and the fewest.
+
+Beside LCF's count stand the provably smallest ones of the formulations `opening` and `span`, on
+LCF's cut and on the best one.
+"""
 
 from __future__ import annotations
 
 import csv
 import io
 import json
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from typing import Any
 
+from formulations.backends import DEFAULT
+from knotopt.cable.cable import Cable
 from knotopt.cable.staircase import find_staircases
 from knotopt.catalogue.table1_grids import Table1Grid, table1_grids
 from knotopt.diagram.grid import Mark
 from knotopt.supports.lcf import LcfResult, best_cut
-from knotopt.supports.support_set import format_supports
+from knotopt.supports.minimal import MinimalSupports, minimal_supports
+from knotopt.supports.requirements import Formulation, Requirements
+from knotopt.supports.search import best_supports
+
+Support = tuple[int, int, int]
 
 NOTE = """\
 The paper shows its grids as pictures only, so which knots its rows show is not known: the knots \
@@ -21,18 +32,33 @@ robots before and in robots after reduction. Table I does not single \
 out one reading of LCF. When the reading used here was fixed, 5,508 sets of rules were tried: 176 \
 of them give 5, 5, 5 on 3_1, 4_1 and 5_1, and each of those 176 gives all six rows on some grid. \
 LCF gives no guarantee: its set need neither keep every threaded region open nor be the smallest \
-that does."""
+that does; "open" says whether it does (formulation opening, r = 0.5). Under opening and span \
+stand the smallest numbers of robots on LCF's cut and, in brackets, on the best of all \
+crossing-free cuts; they are proven if no smaller set exists under the definition of that formulation."""
 """What the table does and does not show; printed wherever the table is."""
 
 
-HEADS = ("row", "knot", "cut", "before", "after", "paper", "reduction", "stairs", "supports")
+HEADS = (
+    "row",
+    "knot",
+    "cut",
+    "before",
+    "LCF",
+    "paper",
+    "open",
+    "opening",
+    "span",
+    "proven",
+)
 
 
 @dataclass(frozen=True)
 class Table1Row:
     """One row; the fields are the columns of the CSV and the keys of the JSON.
 
-    `supports` holds [index on the path (1-based), column, row] of each support robot;
+    `supports` holds [index on the path (1-based), column, row] of each support robot of LCF,
+    `opening_supports` and `span_supports` those of the smallest sets, which belong to their own
+    best cuts; `*_same_cut` are the smallest numbers on LCF's cut;
     `longest_staircase` is the number of crossings in the longest diagonal run (Fig. 7);
     `grid` holds the marks [column, row] of the grid diagram.
     """
@@ -47,12 +73,34 @@ class Table1Row:
     robots_after_paper: int
     reduction_percent: float
     longest_staircase: int
-    supports: tuple[tuple[int, int, int], ...]
+    supports: tuple[Support, ...]
+    openness: float
+    lcf_open: bool
+    opening_same_cut: int
+    opening_robots: int
+    opening_cut: str
+    opening_supports: tuple[Support, ...]
+    span_same_cut: int
+    span_robots: int
+    span_cut: str
+    span_supports: tuple[Support, ...]
+    solver: str
+    proven: bool
     grid: tuple[Mark, ...]
 
 
-def compute_table1(*, all_grids: bool = False) -> list[tuple[Table1Row, LcfResult]]:
-    """Every row of Table I with LCF's result on its best outer cut.
+@dataclass(frozen=True)
+class Table1Result:
+    """A row, and what it summarises: LCF on its best outer cut, the smallest sets on theirs."""
+
+    row: Table1Row
+    lcf: LcfResult
+    opening: MinimalSupports
+    span: MinimalSupports
+
+
+def compute_table1(*, all_grids: bool = False) -> Iterator[Table1Result]:
+    """Every row of Table I, one after the other.
 
     Parameters
     ----------
@@ -61,11 +109,15 @@ def compute_table1(*, all_grids: bool = False) -> list[tuple[Table1Row, LcfResul
 
     Examples
     --------
-    >>> [row.robots_after for row, _ in compute_table1()]
-    [5, 5, 5, 7, 8, 6]
+    >>> [(each.row.robots_after, each.row.opening_robots) for each in compute_table1()]
+    [(5, 5), (5, 5), (5, 6), (7, 12), (8, 6), (6, 5)]
     """
-    grids = [grid for grid in table1_grids() if grid.preferred or all_grids]
-    return [(_row(grid, result), result) for grid in grids for result in [best_cut(grid.diagram)]]
+    return (_result(grid) for grid in chosen_grids(all_grids=all_grids))
+
+
+def chosen_grids(*, all_grids: bool = False) -> list[Table1Grid]:
+    """The preferred grid of every row, or all that reproduce one."""
+    return [grid for grid in table1_grids() if grid.preferred or all_grids]
 
 
 def display(row: Table1Row) -> list[str]:
@@ -77,9 +129,10 @@ def display(row: Table1Row) -> list[str]:
         str(row.robots_before),
         str(row.robots_after),
         str(row.robots_after_paper),
-        f"{row.reduction_percent:.1f} %",
-        str(row.longest_staircase),
-        format_supports(row.supports),
+        "yes" if row.lcf_open else "no",
+        f"{row.opening_same_cut} ({row.opening_robots})",
+        f"{row.span_same_cut} ({row.span_robots})",
+        "yes" if row.proven else "no",
     ]
 
 
@@ -101,10 +154,13 @@ def table1_markdown(rows: list[Table1Row]) -> str:
     return "\n".join(["# Table I, recomputed", "", *lines, "", NOTE, ""])
 
 
-def _row(grid: Table1Grid, result: LcfResult) -> Table1Row:
+def _result(grid: Table1Grid) -> Table1Result:
+    result = best_cut(grid.diagram)
     cable = result.cable
     longest = max((len(run) for run in find_staircases(cable, min_length=1)), default=0)
-    return Table1Row(
+    opening, opening_same, opening_proven = _smallest(cable, Requirements(Formulation.OPENING))
+    span, span_same, span_proven = _smallest(cable, Requirements(Formulation.SPAN))
+    row = Table1Row(
         row=grid.row,
         knot=grid.knot,
         grid_size=cable.diagram.size,
@@ -116,10 +172,35 @@ def _row(grid: Table1Grid, result: LcfResult) -> Table1Row:
         reduction_percent=result.reduction_percent,
         longest_staircase=longest,
         supports=result.placed_supports,
+        openness=float(opening.requirements.openness),
+        lcf_open=opening_same.lcf_report.is_open,
+        opening_same_cut=opening_same.robots,
+        opening_robots=opening.robots,
+        opening_cut=str(opening.cable.cut),
+        opening_supports=opening.placed_supports,
+        span_same_cut=span_same.robots,
+        span_robots=span.robots,
+        span_cut=str(span.cable.cut),
+        span_supports=span.placed_supports,
+        solver=DEFAULT,
+        proven=opening_proven and span_proven,
         grid=grid.marks,
     )
+    return Table1Result(row, result, opening, span)
+
+
+def _smallest(
+    cable: Cable, requirements: Requirements
+) -> tuple[MinimalSupports, MinimalSupports, bool]:
+    """The smallest sets on the best cut and on the cable's own, and whether both are proven."""
+    search = best_supports(cable.diagram, requirements)
+    same = minimal_supports(cable, requirements)
+    return search.best, same, search.is_proven and same.is_proven
 
 
 def _cells(row: Table1Row) -> dict[str, Any]:
     cells = {field.name: getattr(row, field.name) for field in fields(Table1Row)}
-    return {**cells, "supports": json.dumps(row.supports), "grid": json.dumps(row.grid)}
+    return {
+        name: json.dumps(value) if isinstance(value, tuple) else value
+        for name, value in cells.items()
+    }

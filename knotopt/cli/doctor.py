@@ -7,7 +7,12 @@ import typer
 from knotopt.cli.output import JsonOption, print_json, print_table
 from knotopt.errors import install_line
 
-EXTRAS = {"viz": "matplotlib", "knotinfo": "database_knotinfo"}
+EXTRAS = {
+    "viz": "matplotlib",
+    "knotinfo": "database_knotinfo",
+    "scip": "pyscipopt",
+    "sat": "python-sat",
+}
 PACKAGES = ("knotopt", "numpy", "scipy", "networkx", "casadi", "cvxpy", "highspy", "ortools")
 
 
@@ -17,10 +22,9 @@ def doctor(as_json: JsonOption = False) -> None:
     Exit status 1 if a solver does not work. Example: knotopt doctor
     """
     import importlib.metadata
-    import importlib.util
     import platform
 
-    from formulations.probe import probe_solvers
+    from formulations.probe import PROBES, probe_solvers
 
     def version(package: str) -> str:
         try:
@@ -29,10 +33,16 @@ def doctor(as_json: JsonOption = False) -> None:
             return "not installed"
 
     versions = {"python": platform.python_version()} | {name: version(name) for name in PACKAGES}
-    solvers = probe_solvers()
+    needed = {"SCIP (cvxpy)": "scip", "RC2 and CaDiCaL (pysat)": "sat"}
+    there = [
+        name
+        for name in PROBES
+        if name not in needed or version(EXTRAS[needed[name]]) != "not installed"
+    ]
+    solvers = probe_solvers(there)
     extras = {
         extra: version(package)
-        if importlib.util.find_spec(package)
+        if version(package) != "not installed"
         else f"not installed: {install_line(extra)}"
         for extra, package in EXTRAS.items()
     }

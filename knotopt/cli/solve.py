@@ -267,7 +267,8 @@ def _write(
         from knotopt.plot.figures import save_figure, supports_figure
 
         title = f"{name}, cut {result.cable.cut}: {result.robots} robots"
-        save_figure(supports_figure(result.lcf.regions, result.supports, title), plot)
+        figure = supports_figure(result.lcf.regions, result.supports, title, taut=True)
+        save_figure(figure, plot)
         written.append(plot)
     if export is not None:
         from formulations.export import FORMATS

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from knotopt.cli.output import JsonOption, print_json, print_note, print_table, print_written
+from knotopt.cli.output import JsonOption, print_json, print_note, print_table, print_written, track
 
 
 def table1(
@@ -23,38 +23,47 @@ def table1(
     ] = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Recompute the paper's Table I: robots before and after LCF.
+    """Recompute the paper's Table I: robots before and after LCF, and the smallest sets.
 
     Example: knotopt table1 --out paper_results
     """
     from knotopt.table1 import (
         HEADS,
         NOTE,
+        chosen_grids,
         compute_table1,
         display,
         table1_csv,
         table1_markdown,
     )
 
-    results = compute_table1(all_grids=all_grids)
-    rows = [row for row, _ in results]
-    written = []
     if out is not None:
         if all_grids:
             raise typer.BadParameter(
                 "writes the six rows: leave out --all-grids", param_hint="--out"
             )
+        from knotopt.plot.figures import before_after_figure, minimal_figure, save_figure
+    total = len(chosen_grids(all_grids=all_grids))
+    results = list(track(compute_table1(all_grids=all_grids), "grids", total))
+    rows = [result.row for result in results]
+    written = []
+    if out is not None:
         from knotopt.files import write_atomically
-        from knotopt.plot.figures import before_after_figure, save_figure
 
-        for row, result in results:
-            path = out / "figures" / f"table1_{row.row.replace(' ', '_')}_{row.knot}.png"
-            title = f"Table I, row {row.row}: {row.knot}, cut {row.cut}"
-            save_figure(before_after_figure(result, title), path)
-            written.append(path)
-        for name, text in (("table1.csv", table1_csv(rows)), ("table1.md", table1_markdown(rows))):
-            write_atomically(out / name, text)
-            written.append(out / name)
+        for result in results:
+            row = result.row
+            name = f"table1_{row.row.replace(' ', '_')}_{row.knot}"
+            title = f"Table I, row {row.row}: {row.knot}"
+            figures = {
+                name: before_after_figure(result.lcf, f"{title}, cut {row.cut}"),
+                f"{name}_minimal": minimal_figure([result.opening, result.span], title),
+            }
+            for stem, figure in figures.items():
+                save_figure(figure, out / "figures" / f"{stem}.png")
+                written.append(out / "figures" / f"{stem}.png")
+        for file, text in (("table1.csv", table1_csv(rows)), ("table1.md", table1_markdown(rows))):
+            write_atomically(out / file, text)
+            written.append(out / file)
     if as_json:
         print_json([asdict(row) for row in rows])
         return

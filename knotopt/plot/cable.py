@@ -22,6 +22,7 @@ from knotopt.supports.regions import Regions
 
 CABLE_COLOUR = "#222222"
 SUPPORT_COLOUR = "#0072B2"
+SPAN_COLOUR = "#009E73"
 LIFTING_COLOUR = "#D55E00"
 LAYER_COLOURS = ("#FBEBBE", "#F5D57C", "#EBB73A", "#D0930F")
 PASSIVE_COLOUR = "#AAAAAA"
@@ -99,6 +100,20 @@ def draw_robots(axes: Axes, cable: Cable, supports: Collection[int]) -> list[Lin
             at[:, 0], at[:, 1], linestyle="", markersize=8, label=label, zorder=4, **style
         )
     return handles
+
+
+def draw_spans(axes: Axes, cable: Cable, supports: Collection[int]) -> list[Line2D]:
+    """The taut cable: straight spans between consecutive robots, as a handle for a legend."""
+    robots = cable.points[[0, *sorted(index - 1 for index in supports), -1]]
+    return axes.plot(
+        robots[:, 0],
+        robots[:, 1],
+        color=SPAN_COLOUR,
+        linestyle=(0, (4, 2)),
+        linewidth=1.2,
+        label="taut cable",
+        zorder=3.5,
+    )
 
 
 def draw_regions(axes: Axes, regions: Regions) -> list[Patch]:

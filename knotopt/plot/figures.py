@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import Any
 
 import matplotlib
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from knotopt.cable.cable import Cable
 from knotopt.errors import OutputError
 from knotopt.files import write_atomically
-from knotopt.plot.cable import draw_cable, draw_regions, draw_robots
+from knotopt.plot.cable import draw_cable, draw_regions, draw_robots, draw_spans
 from knotopt.supports.lcf import LcfResult
+from knotopt.supports.minimal import MinimalSupports
 from knotopt.supports.regions import Regions
 
 PANEL = 3.4  # width of a panel [inch]: one column of a two-column paper
@@ -32,12 +34,19 @@ def cable_figure(cable: Cable, title: str) -> Figure:
     return figure
 
 
-def supports_figure(regions: Regions, supports: Collection[int], title: str) -> Figure:
-    """One panel: supports, active regions shaded by layer, passive ones hatched."""
+def supports_figure(
+    regions: Regions, supports: Collection[int], title: str, *, taut: bool = False
+) -> Figure:
+    """One panel: supports, active regions shaded by layer, passive ones hatched.
+
+    With `taut`, also the straight spans between consecutive robots.
+    """
     figure, (axes,) = _panels(1, regions.cable)
     shades = draw_regions(axes, regions)
     draw_cable(axes, regions.cable)
     handles = draw_robots(axes, regions.cable, supports)
+    if taut:
+        handles += draw_spans(axes, regions.cable, supports)
     figure.suptitle(title, fontsize=9, parse_math=False)
     figure.legend(handles=[*handles, *shades], loc="outside lower center", ncols=2, **_LEGEND)
     return figure
@@ -70,6 +79,26 @@ def save_figure(figure: Figure, path: Path) -> None:
     write_atomically(path, buffer.getvalue())
 
 
+def minimal_figure(results: Sequence[MinimalSupports], title: str) -> Figure:
+    """One panel a result, one above the other: its smallest set and the taut cable."""
+    figure, panels = _panels(len(results), *(result.cable for result in results))
+    handles: list[Artist] = []
+    for axes, result in zip(panels, results, strict=True):
+        cable = result.cable
+        shades = draw_regions(axes, result.lcf.regions)
+        draw_cable(axes, cable)
+        handles = [
+            *draw_robots(axes, cable, result.supports),
+            *draw_spans(axes, cable, result.supports),
+            *shades,
+        ]
+        kind = result.requirements.formulation
+        axes.set_title(f"{kind}, cut {cable.cut}: {result.robots} robots", fontsize=9)
+    figure.suptitle(title, fontsize=9, parse_math=False)
+    figure.legend(handles=handles, loc="outside lower center", ncols=2, **_LEGEND)
+    return figure
+
+
 def check_format(path: Path) -> str:
     """The suffix of a picture's file.
 
@@ -92,8 +121,8 @@ _LEGEND: dict[str, Any] = {
 }
 
 
-def _panels(count: int, cable: Cable) -> tuple[Figure, list[Axes]]:
-    side = max(PANEL, 0.25 * cable.diagram.size)
+def _panels(count: int, *cables: Cable) -> tuple[Figure, list[Axes]]:
+    side = max(PANEL, *(0.25 * cable.diagram.size for cable in cables))
     figure = Figure(figsize=(side, count * side + 0.9), layout="constrained")
     axes = figure.subplots(count, 1, squeeze=False)[:, 0]
     return figure, list(axes)

@@ -1,0 +1,38 @@
+"""Certificates of the smallest sets (`opening`, all crossing-free cuts) of 249 knots."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable
+
+from benchmarks.registry import Benchmark, Case, Result, register
+from knotopt.catalogue.knots import shipped_knots
+from knotopt.certificate import prove
+from knotopt.verify.certificate import check_certificate
+
+
+def cases(smoke: bool) -> Iterable[Case]:
+    """One case a knot."""
+    names = list(shipped_knots())
+    return ({"knot": name} for name in (names[:2] if smoke else names))
+
+
+def measure(case: Case) -> Result:
+    """Time to prove and to check [s], size [bytes], and what was proven."""
+    knot = shipped_knots()[case["knot"]]
+    began = time.perf_counter()
+    certificate = prove(knot.name, knot.diagram)
+    proven = time.perf_counter()
+    verdict = check_certificate(certificate)
+    checked = time.perf_counter()
+    return {
+        "robots": verdict.robots,
+        "cuts": verdict.cuts,
+        "every_cut": verdict.every_cut,
+        "bytes": len(certificate),
+        "prove_seconds": round(proven - began, 4),
+        "check_seconds": round(checked - proven, 4),
+    }
+
+
+register(Benchmark("certificates", "prove and check the minima of 249 knots", cases, measure))

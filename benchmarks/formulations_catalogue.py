@@ -1,0 +1,59 @@
+"""LCF against the smallest sets of `opening` and `span`: 249 knots, all crossing-free cuts."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable
+
+from benchmarks.registry import Benchmark, Case, Result, register
+from formulations.backends import get_backend
+from formulations.solution import Limits
+from knotopt.cable.cable import Cable
+from knotopt.cable.cut import crossing_free_cuts
+from knotopt.catalogue.knots import shipped_knots
+from knotopt.comparison import is_open
+from knotopt.supports.lcf import lcf
+from knotopt.supports.minimal import compile_program
+from knotopt.supports.requirements import Formulation, Requirements
+
+THREADINGS = {"opening": None, "opening_over_under": "over-under", "span": None}
+
+
+def cases(smoke: bool) -> Iterable[Case]:
+    """One case a knot."""
+    names = list(shipped_knots())
+    return ({"knot": name} for name in (names[:2] if smoke else names))
+
+
+def measure(case: Case) -> Result:
+    """For each cut: robots by method, LCF open or not, and times [ms] of one thread of CP-SAT.
+
+    The time of a formulation is that to compile, build and solve, without LCF.
+    """
+    knot = shipped_knots()[case["knot"]]
+    opening = Requirements(Formulation.OPENING)
+    cp_sat = get_backend("cp-sat")
+    result: Result = {"crossing_number": knot.crossing_number, "cuts": {}}
+    for cut in crossing_free_cuts(knot.diagram):
+        seeded = lcf(Cable(knot.diagram, cut))
+        layered = lcf(Cable(knot.diagram, cut), layered=True)
+        row = {
+            "baseline": seeded.baseline,
+            "lcf": seeded.robots,
+            "lcf_open": is_open(seeded, opening),
+            "layered": layered.robots,
+            "layered_open": is_open(layered, opening),
+        }
+        for name, threading in THREADINGS.items():
+            asked = Requirements(name.split("_")[0], threading=threading)
+            began = time.perf_counter()
+            program = compile_program(seeded, asked)
+            solution = cp_sat.solve(program.instance(float(asked.openness**2)), Limits())
+            row[name] = solution.objective
+            row[f"{name}_proven"] = solution.objective == solution.bound
+            row[f"{name}_ms"] = round(1e3 * (time.perf_counter() - began), 3)
+        result["cuts"][str(cut)] = row
+    return result
+
+
+register(Benchmark("formulations", "LCF, opening and span on 249 knots x all cuts", cases, measure))
