@@ -16,7 +16,15 @@ from typing import Annotated, Any
 import typer
 from rich.progress import track
 
-from benchmarks import lcf_catalogue, lcf_growth, startup  # noqa: F401 -- they register themselves
+from benchmarks import (  # noqa: F401 -- they register themselves
+    certificates,
+    formulations_catalogue,
+    formulations_growth,
+    lcf_catalogue,
+    lcf_growth,
+    solvers,
+    startup,
+)
 from benchmarks.registry import BENCHMARKS, Benchmark
 from knotopt.files import resumable_lines
 
@@ -28,7 +36,7 @@ app = typer.Typer(help=__doc__, no_args_is_help=True, pretty_exceptions_enable=F
 def list_benchmarks() -> None:
     """Name every benchmark and what it measures."""
     for benchmark in BENCHMARKS.values():
-        print(f"{benchmark.name:15} {benchmark.about}")
+        print(f"{benchmark.name:20} {benchmark.about}")
 
 
 @app.command()
@@ -61,7 +69,16 @@ def run_benchmark(benchmark: Benchmark, out: Path, *, smoke: bool = False) -> Pa
 
 def machine_facts() -> dict[str, Any]:
     """What the times depend on."""
-    packages = ("knotopt", "numpy", "scipy")
+    packages = (
+        "knotopt",
+        "numpy",
+        "scipy",
+        "ortools",
+        "cvxpy",
+        "highspy",
+        "pyscipopt",
+        "python-sat",
+    )
     return {
         "python": platform.python_version(),
         "system": f"{platform.system()} {platform.machine()}",

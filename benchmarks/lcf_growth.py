@@ -34,11 +34,11 @@ def measure(case: Case) -> Result:
     seconds = float("inf")
     for _ in range(REPEATS):
         start = time.perf_counter()
-        cable = Cable(_diagram(case), "L+")
+        cable = Cable(diagram_of(case), "L+")
         result = lcf(cable)
         seconds = min(seconds, time.perf_counter() - start)
     tracemalloc.start()
-    again = lcf(Cable(_diagram(case), "L+"))
+    again = lcf(Cable(diagram_of(case), "L+"))
     memory = tracemalloc.get_traced_memory()[1] / 2**20
     tracemalloc.stop()
     ratio = None
@@ -60,7 +60,8 @@ def measure(case: Case) -> Result:
     }
 
 
-def _diagram(case: Case) -> GridDiagram:
+def diagram_of(case: Case) -> GridDiagram:
+    """The grid diagram of a family, size and seed."""
     size = case["size"]
     if case["family"] == "T(2,N-2)":
         return torus_knot(2, size - 2)

@@ -34,7 +34,7 @@ of them give 5, 5, 5 on 3_1, 4_1 and 5_1, and each of those 176 gives all six ro
 LCF gives no guarantee: its set need neither keep every threaded region open nor be the smallest \
 that does; "open" says whether it does (formulation opening, r = 0.5). Under opening and span \
 stand the smallest numbers of robots on LCF's cut and, in brackets, on the best of all \
-crossing-free cuts; they are proven if no smaller set exists under the definition of that formulation."""
+crossing-free cuts; they are proven if no smaller set exists under that definition."""
 """What the table does and does not show; printed wherever the table is."""
 
 
