@@ -49,13 +49,13 @@ def _mps(instance: Instance) -> Iterator[str]:
     yield " N cost"
     yield from (f" G r{i}" for i in range(1, len(instance.rows) + 1))
     yield "COLUMNS"
-    yield " MARKER MARKER 'MARKER' 'INTORG'"
+    yield " MARKER 'MARKER' 'INTORG'"
     for j, weight in enumerate(instance.objective):
         entries = slice(columns.indptr[j], columns.indptr[j + 1])
         yield f" x{j + 1} cost {weight}"
         for i, value in zip(columns.indices[entries], columns.data[entries], strict=True):
             yield f" x{j + 1} r{i + 1} {value}"
-    yield " MARKER MARKER 'MARKER' 'INTEND'"
+    yield " MARKER 'MARKER' 'INTEND'"
     yield "RHS"
     yield from (f" RHS r{i + 1} {value}" for i, value in enumerate(bound.tolist()))
     yield "BOUNDS"

@@ -12,6 +12,8 @@ from .catalogue.knotinfo import knotinfo_knots as knotinfo_knots
 from .catalogue.knots import shipped_knots as shipped_knots
 from .catalogue.lookup import find_knot as find_knot
 from .catalogue.table1_grids import table1_grids as table1_grids
+from .certificate import prove as prove
+from .comparison import compare as compare
 from .diagram.families import random_knot as random_knot
 from .diagram.families import torus_knot as torus_knot
 from .diagram.grid import GridDiagram as GridDiagram
@@ -22,7 +24,17 @@ from .supports.lcf import LcfResult as LcfResult
 from .supports.lcf import best_cut as best_cut
 from .supports.lcf import lcf as lcf
 from .supports.lcf import lcf_by_cut as lcf_by_cut
+from .supports.minimal import MinimalSupports as MinimalSupports
+from .supports.minimal import all_minimal as all_minimal
+from .supports.minimal import minimal_supports as minimal_supports
 from .supports.regions import Region as Region
 from .supports.regions import Regions as Regions
+from .supports.requirements import Requirements as Requirements
+from .supports.search import best_diagram as best_diagram
+from .supports.search import best_supports as best_supports
+from .supports.search import supports_by_cut as supports_by_cut
+from .verify.certificate import check_certificate as check_certificate
+from .verify.opening import check_opening as check_opening
+from .verify.span import check_span as check_span
 
 __version__: str

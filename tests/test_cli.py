@@ -49,10 +49,13 @@ def cli(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> 
 def test_help_names_every_command_and_each_has_an_example(cli: Cli) -> None:
     status, out, _ = cli("--help")
     assert status == 0
-    for command in ("knots", "show", "lcf", "table1", "doctor"):
+    for command in (
+        *("knots", "show", "lcf", "solve", "compare", "prove", "check", "table1", "doctor"),
+    ):
         assert command in out
         status, text, _ = cli(command, "--help")
-        assert status == 0 and f"knotopt {command}" in text and "--json" in text
+        assert status == 0 and f"knotopt {command}" in text
+        assert ("--json" in text) == (command != "prove")  # it writes a file
         assert "Example:" in text
 
 
@@ -103,10 +106,12 @@ def test_table1_prints_the_table_and_the_note(cli: Cli) -> None:
             row["knot"],
             row["cut"],
             *(str(row[key]) for key in ("robots_before", "robots_after", "robots_after_paper")),
-            str(row["reduction_percent"]),
-            "%",
-            str(row["longest_staircase"]),
-            *(f"p{index}[{c},{r}]" for index, c, r in row["supports"]),
+            "yes" if row["lcf_open"] else "no",
+            str(row["opening_same_cut"]),
+            f"({row['opening_robots']})",
+            str(row["span_same_cut"]),
+            f"({row['span_robots']})",
+            "yes",
         )
         assert list(cells) in [line.split() for line in out.splitlines()]
     assert " ".join(NOTE.split()) in " ".join(out.split())
@@ -119,6 +124,10 @@ def test_table1_json_has_the_columns_of_the_csv(cli: Cli, tmp_path: Path) -> Non
     assert [row["robots_before"] for row in rows] == [10, 12, 14, 18, 18, 22]
     assert [row["crossings"] for row in rows] == [3, 4, 5, 7, 7, 9]
     assert rows[5]["reduction_percent"] == 72.7
+    assert [row["lcf_open"] for row in rows] == [False, False, False, False, True, False]
+    assert [row["opening_same_cut"] for row in rows] == [5, 5, 6, 12, 6, 6]
+    assert [row["opening_robots"] for row in rows] == [5, 5, 6, 12, 6, 5]
+    assert all(row["proven"] for row in rows)
     status, out, _ = cli("table1", "--out", tmp_path)
     assert status == 0 and "written:" in out
     with (tmp_path / "table1.csv").open(newline="") as stream:
@@ -129,7 +138,7 @@ def test_table1_json_has_the_columns_of_the_csv(cli: Cli, tmp_path: Path) -> Non
     markdown = (tmp_path / "table1.md").read_text()
     assert markdown.count("\n| ") >= 6 and NOTE in markdown
     figures = sorted(path.name for path in (tmp_path / "figures").iterdir())
-    assert len(figures) == 6 and "table1_7_Var1_7_2.png" in figures
+    assert len(figures) == 12 and "table1_7_Var1_7_2_minimal.png" in figures
 
 
 def test_table1_over_all_grids(cli: Cli, tmp_path: Path) -> None:
@@ -256,10 +265,177 @@ def test_pictures_without_matplotlib(cli: Cli, monkeypatch: pytest.MonkeyPatch) 
 
 def test_doctor(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
     found = cli.json("doctor")
-    assert [solver["works"] for solver in found["solvers"]] == [True] * 3
+    assert [solver["works"] for solver in found["solvers"]] == [True] * 5
     assert found["versions"]["numpy"][0].isdigit()
     broken = [probe.ProbeResult("CP-SAT (ortools)", False, "wrong optimum 2")]
-    monkeypatch.setattr(probe, "probe_solvers", lambda: broken)
-    monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
+    asked: list[str] = []
+    monkeypatch.setattr(probe, "probe_solvers", lambda names: asked.extend(names) or broken)
+
+    def version(package: str) -> str:
+        raise importlib.metadata.PackageNotFoundError(package)
+
+    monkeypatch.setattr("importlib.metadata.version", version)
     status, out, _ = cli("doctor")
     assert status == 1 and "wrong optimum 2" in out and "pip install 'knotopt[viz]'" in out
+    assert len(asked) == 3 and not any("SCIP" in name or "pysat" in name for name in asked)
+
+
+def test_solve(cli: Cli, tmp_path: Path) -> None:
+    picture, program = tmp_path / "a.png", tmp_path / "a.mps"
+    status, out, err = cli("solve", "9", "--plot", picture, "--export", program)
+    assert (status, err) == (0, "")
+    assert "cut L+: 5 robots instead of 22 (77.3 % fewer)" in out
+    assert "no set of 4 robots is open over 8 cuts" in out and "open by the definition" in out
+    assert picture.stat().st_size > 10_000 and "ENDATA" in program.read_text()
+    content = cli.json("solve", "5", "--cut", "L+")
+    assert (content["robots_after"], content["bound"], content["status"]) == (6, 6, "optimal")
+    assert content["proven"] and content["checked_open"] and content["canonical"]
+    assert (content["lcf_robots"], content["lcf_open"]) == (5, False)
+    assert content["lcf_closes"] == ["loop c1", "loop c2", "loop c3", "loop c4"]
+    assert content["start_accepted"] is False and len(content["instance"]) == 64
+    saved = tmp_path / "5.json"
+    saved.write_text(json.dumps(content))
+    assert cli.json("solve", saved, "--cut", "L+")["supports"] == content["supports"]
+
+
+def test_solve_over_cuts_sets_and_diagrams(cli: Cli) -> None:
+    rows = cli.json("solve", "7 Var2", "--cut", "all")
+    assert [row["robots_after"] for row in rows] == [6, 12, 10, 10, 6, 12, 10, 10]
+    status, out, _ = cli("solve", "7 Var2", "--cut", "all")
+    assert status == 0 and out.count("yes") >= 8
+    content = cli.json("solve", "9", "--all", "--cut", "L+")
+    assert content["minimal_sets"] == [[9, 10, 11], [9, 10, 12], [9, 10, 13]]
+    assert content["minimal_sets_complete"]
+    status, out, _ = cli("solve", "9", "--all", "--count", "2", "--cut", "L+")
+    assert "2 smallest sets, and there are more" in out
+    content = cli.json("solve", "7 Var1", "--diagrams", "20", "--seed", "1")
+    assert content["diagrams_tried"] == 20 and content["robots_after"] < 12
+    status, out, _ = cli("solve", "7 Var1", "--diagrams", "20", "--seed", "1")
+    assert "best of 20 found by translations and commutations" in out
+
+
+def test_solve_with_what_a_team_asks(cli: Cli) -> None:
+    status, out, _ = cli("solve", "5", "--separation", "4")
+    assert status == 1 and "no set of supports does what is asked" in out
+    assert "  separation: p5 and p6\n" in out and "  opening: loop c1, threaded at p10" in out
+    content = cli.json("solve", "5", "--payload", "6", "--forbid", "8", "--force", "9")
+    assert {support[0] for support in content["supports"]} >= {9}
+    status, out, _ = cli("solve", "5", "--max-robots", "5", "--reach", "6")
+    assert status == 0 and "no larger opening over 8 cuts" in out and "reach 6" in out
+    assert cli.json("solve", "5", "--max-robots", "5")["openness"] is None
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "message"),
+    [
+        (("--r", "1.5"), 1, "must lie in (0, 1]"),
+        (("--r", "0"), 1, "must lie in (0, 1]"),
+        (("--formulation", "springs"), 1, "no formulation is named 'springs'"),
+        (("--threading", "x"), 1, "no threading mode is named 'x'"),
+        (("--solver", "gurobi"), 1, "no solver is named 'gurobi'"),
+        (("--force", "3", "--forbid", "3"), 1, "p3 is both forced and forbidden"),
+        (("--force", "99"), 1, "p99: the cable's turning points are p1 to p14"),
+        (("--max-robots", "5", "--r", "0.5"), 1, "exclude each other"),
+        (("--time-limit", "0"), 1, "time limit must be positive"),
+        (("--gap", "2"), 1, "the gap must lie in [0, 1)"),
+        (("--threads", "0"), 1, "threads must be at least 1"),
+        (("--seed", "-1"), 1, "the seed must lie in"),
+        (("--export", "a.lp"), 1, "programs are written as .json, .mps, .opb, .wcnf"),
+        (("--plot", "a.gif"), 1, "pictures are written as"),
+        (("--cut", "all", "--all"), 2, "is about one cut"),
+        (("--cut", "all", "--plot", "a.png"), 2, "is about one cut"),
+        (("--cut", "L+", "--diagrams", "5"), 2, "goes with --cut best"),
+        (("--cut", "col2+"), 1, "carries"),
+        (("--all", "--solver", "highs"), 1, "cannot list all sets"),
+        (("--solver", "exhaustive", "--cut", "X"), 1, "no cut is named 'X'"),
+    ],
+)
+def test_solve_refuses(
+    cli: Cli, arguments: tuple[str, ...], status: int, message: str, tmp_path: Path
+) -> None:
+    cli.monkeypatch.chdir(tmp_path)
+    found, _, err = cli("solve", "5", *arguments)
+    assert found == status and message in " ".join(err.replace("│", " ").split())
+    assert "Traceback" not in err and not list(tmp_path.iterdir())
+
+
+def test_compare(cli: Cli, tmp_path: Path) -> None:
+    rows = cli.json("compare", "3", "5", "8_19")
+    assert [row["opening_robots"] for row in rows] == [5, 6, 9]
+    assert [row["span_robots"] for row in rows] == [7, 9, 10]
+    assert [row["lcf_open"] for row in rows] == [False, False, True]
+    for suffix in ("csv", "md", "tex"):
+        status, out, _ = cli("compare", "3", "5", "--out", tmp_path / f"a.{suffix}")
+        assert status == 0 and "written:" in out and "mean of 2" in out
+    with (tmp_path / "a.csv").open(newline="") as stream:
+        assert csv.DictReader(stream).fieldnames == list(rows[0])
+    assert "| mean of 2 |" in (tmp_path / "a.md").read_text()
+    latex = (tmp_path / "a.tex").read_text()
+    assert "\\toprule" in latex and "5\\_1 & 14 & 5 & no &" in latex
+    assert latex.count("&") == 8 * latex.count("\\\\\n")
+    assert cli("compare", "3", "--cut", "T-")[0] == 0
+    for arguments, code, message in (
+        ((), 2, "give knots, or --catalogue"),
+        (("3", "--catalogue"), 2, "give knots, or --catalogue"),
+        (("3", "--out", "a.xls"), 1, "tables are written as .csv, .md, .tex"),
+        (("3", "--time-limit", "-1"), 1, "time limit must be positive"),
+        (("8_99",), 1, "no knot is named '8_99'"),
+    ):
+        status, _, err = cli("compare", *arguments)
+        assert status == code and message in err
+
+
+def test_prove_and_check(cli: Cli, tmp_path: Path) -> None:
+    file = tmp_path / "a.jsonl"
+    status, out, _ = cli("prove", "3", "4", "--out", file)
+    assert (status, out) == (0, f"written: {file}\n") and list(tmp_path.iterdir()) == [file]
+    status, out, _ = cli("check", file)
+    assert status == 0 and "2 accepted" in out and "all 8 cuts" in out
+    verdicts = cli.json("check", file, file)
+    assert [verdict["robots_after"] for verdict in verdicts] == [5, 5, 5, 5]
+    whole = file.read_text()
+    file.write_text(whole[:-100])
+    status, _, err = cli("check", file)
+    assert status == 1 and f"{file}, line 2: rejected: not JSON, or cut off" in err
+    file.write_text(whole.replace('"robots":5', '"robots":6'))
+    status, _, err = cli("check", file)
+    assert status == 1 and "line 1: rejected: 3 supports and 2 lifting robots are not 6" in err
+    file.write_text("")
+    assert "is empty" in cli("check", file)[2]
+    assert "cannot read" in cli("check", tmp_path / "none")[2]
+    for arguments, code, message in (
+        ((), 2, "give knots, or --catalogue"),
+        (("3", "--method", "faith"), 2, "expected refutation or count"),
+        (("3", "--r", "2"), 1, "must lie in (0, 1]"),
+        (("3", "--time-limit", "-1"), 1, "time limit must be positive"),
+        (("3", "--formulation", "span", "--method", "refutation"), 1, "opening only"),
+    ):
+        status, _, err = cli("prove", *arguments, "--out", tmp_path / "b.jsonl")
+        assert status == code and message in err
+        assert not (tmp_path / "b.jsonl").exists()
+
+
+def test_prove_goes_on_where_it_stopped(
+    cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from knotopt import certificate
+
+    file, whole = tmp_path / "a.jsonl", tmp_path / "whole.jsonl"
+    knots = ("3", "4", "5")
+    cli("prove", *knots, "--out", whole)
+    proven: list[str] = []
+    original = certificate.prove
+
+    def interrupted(name: str, *arguments: Any, **options: Any) -> str:
+        if name == "5_1" and "5_1" not in proven:
+            proven.append(name)
+            raise KeyboardInterrupt
+        proven.append(name)
+        return original(name, *arguments, **options)
+
+    monkeypatch.setattr(certificate, "prove", interrupted)
+    assert cli("prove", *knots, "--out", file)[0] == 130 and not file.exists()
+    cli("prove", *knots, "--out", file)
+    assert proven == ["3_1", "4_1", "5_1", "5_1"]
+    assert file.read_text() == whole.read_text()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.jsonl", "whole.jsonl"]
