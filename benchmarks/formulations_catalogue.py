@@ -6,6 +6,7 @@ import time
 from collections.abc import Iterable
 
 from benchmarks.registry import Benchmark, Case, Result, register
+from benchmarks.warm import warm_up
 from formulations.backends import get_backend
 from formulations.solution import Limits
 from knotopt.cable.cable import Cable
@@ -30,6 +31,7 @@ def measure(case: Case) -> Result:
 
     The time of a formulation is that to compile, build and solve, without LCF.
     """
+    warm_up("cp-sat")
     knot = shipped_knots()[case["knot"]]
     opening = Requirements(Formulation.OPENING)
     cp_sat = get_backend("cp-sat")

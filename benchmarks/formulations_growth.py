@@ -7,6 +7,7 @@ from collections.abc import Iterable
 
 from benchmarks.lcf_growth import diagram_of
 from benchmarks.registry import Benchmark, Case, Result, register
+from benchmarks.warm import warm_up
 from formulations.backends import get_backend
 from formulations.solution import Limits
 from knotopt.cable.cable import Cable
@@ -32,6 +33,7 @@ def cases(smoke: bool) -> Iterable[Case]:
 
 def measure(case: Case) -> Result:
     """Times [s] to compile and to solve (CP-SAT, one thread), and what came out."""
+    warm_up("cp-sat")
     asked = Requirements(case["formulation"])
     seeded = lcf(Cable(diagram_of(case), "L+"))
     began = time.perf_counter()

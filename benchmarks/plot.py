@@ -128,7 +128,9 @@ def robots_figure(rows: list[dict[str, Any]]) -> Figure:
 
 
 def main() -> None:
-    """Write summary.md and the figures beside the results."""
+    """Write summary.md (LCF), formulations.md and the figures beside the results."""
+    from benchmarks.plot_formulations import write_parts
+
     _, startup = load("startup")
     header, catalogue = load("lcf_catalogue")
     _, growth = load("lcf_growth")
@@ -153,6 +155,10 @@ def main() -> None:
     write_atomically(RESULTS / "summary.md", "\n\n".join(parts) + "\n")
     save_figure(robots_figure(catalogue), RESULTS / "robots.png")
     save_figure(growth_figure(growth), RESULTS / "growth.png")
+    parts, figures = write_parts()
+    write_atomically(RESULTS / "formulations.md", "\n\n".join(parts) + "\n")
+    for name, figure in figures.items():
+        save_figure(figure, RESULTS / name)
 
 
 def _by_size(rows: list[dict[str, Any]], family: str, key: str) -> dict[int, list[float]]:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable
-from functools import cache
 from itertools import islice
 from typing import Any
 
 from benchmarks.registry import Benchmark, Case, Result, register
+from benchmarks.warm import warm_up
 from formulations.backends import BACKENDS, get_backend
-from formulations.instance import Instance, Row
 from formulations.solution import Limits, Status
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import crossing_free_cuts
@@ -32,17 +31,10 @@ def cases(smoke: bool) -> Iterable[Case]:
             yield {"knot": name, "formulation": str(formulation)}
 
 
-@cache
-def warm_up() -> None:
-    """Import every solver and solve something with it: that time belongs to no instance."""
-    tiny = Instance("tiny", ("a", "b"), 2, (1, 1), (Row((1, 2), 1, "cover", "ab"),))
-    for name in BACKENDS:
-        get_backend(name).solve(tiny, LIMITS)
-
-
 def measure(case: Case) -> Result:
     """For each cut and solver: status, objective, bound and time [s], build and solve."""
-    warm_up()
+    for name in BACKENDS:
+        warm_up(name)
     knot = shipped_knots()[case["knot"]]
     asked = Requirements(case["formulation"])
     cuts = crossing_free_cuts(knot.diagram)

@@ -1,0 +1,282 @@
+"""Tables and figures of the formulations' benchmarks: LCF's excess, solvers, growth, proofs."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter, defaultdict
+from statistics import mean, median
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from benchmarks.plot import FAMILIES, load
+from knotopt.plot.figures import PANEL
+
+SHIFT = 0.01  # of the geometric mean of times [s]
+SOLVERS = {
+    "cp-sat": ("CP-SAT", "-", "#0072B2"),
+    "maxsat": ("RC2 (MaxSAT)", "--", "#009E73"),
+    "highs": ("HiGHS (cvxpy)", "-.", "#D55E00"),
+    "scip": ("SCIP (cvxpy)", ":", "#CC79A7"),
+    "exhaustive": ("exhaustive", (0, (1, 3)), "#666666"),
+}
+Rows = list[dict[str, Any]]
+
+
+def shifted_geometric_mean(times: list[float]) -> float:
+    """exp(mean(log(t + SHIFT))) - SHIFT [s]."""
+    return math.exp(mean(math.log(t + SHIFT) for t in times)) - SHIFT
+
+
+def counts_table(rows: Rows) -> str:
+    """Robots by crossing number, and how LCF compares with the smallest open sets."""
+    lines = [
+        "| crossings | cuts | baseline | LCF | open | layered | open "
+        "| opening | over-under | span |",
+        "|---|---|---|---|---|---|---|---|---|---|",
+    ]
+    groups: dict[str, Rows] = defaultdict(list)
+    for row in rows:
+        groups[str(row["crossing_number"])] += row["cuts"].values()
+    every = [cut for row in rows for cut in row["cuts"].values()]
+    best = [
+        {
+            key: min(cut[key] for cut in row["cuts"].values())
+            for key in ("baseline", "lcf", "layered", "opening", "opening_over_under", "span")
+        }
+        for row in rows
+    ]
+    for name, group in [*groups.items(), ("all", every)]:
+        lines.append(
+            f"| {name} | {len(group)} | {mean(c['baseline'] for c in group):.2f} "
+            f"| {mean(c['lcf'] for c in group):.2f} "
+            f"| {100 * mean(c['lcf_open'] for c in group):.0f} % "
+            f"| {mean(c['layered'] for c in group):.2f} "
+            f"| {100 * mean(c['layered_open'] for c in group):.0f} % "
+            f"| {mean(c['opening'] for c in group):.2f} "
+            f"| {mean(c['opening_over_under'] for c in group):.2f} "
+            f"| {mean(c['span'] for c in group):.2f} |"
+        )
+    lines.append(
+        f"| all, best cut of each method | {len(best)} | {mean(b['baseline'] for b in best):.2f} "
+        f"| {mean(b['lcf'] for b in best):.2f} | | {mean(b['layered'] for b in best):.2f} | "
+        f"| {mean(b['opening'] for b in best):.2f} "
+        f"| {mean(b['opening_over_under'] for b in best):.2f} "
+        f"| {mean(b['span'] for b in best):.2f} |"
+    )
+    return "\n".join([*lines, "", _lcf_note(every)])
+
+
+def _lcf_note(cuts: Rows) -> str:
+    is_open = [cut for cut in cuts if cut["lcf_open"]]
+    excess = [cut["lcf"] - cut["opening"] for cut in is_open]
+    fewer = [cut["opening"] - cut["lcf"] for cut in cuts if cut["lcf"] < cut["opening"]]
+    proven = all(cut["opening_proven"] and cut["span_proven"] for cut in cuts)
+    return (
+        f"LCF's set is open (r = 0.5) on {100 * len(is_open) / len(cuts):.1f} % of the cuts; there "
+        f"it uses {mean(excess):.2f} robots more than the smallest open set (mean; at most "
+        f"{max(excess)}), and is smallest on {100 * mean(e == 0 for e in excess):.1f} %. On "
+        f"{100 * len(fewer) / len(cuts):.1f} % of the cuts it uses fewer robots than any open set "
+        f"has (by {mean(fewer):.2f} in the mean). "
+        + ("Every number of opening and span is a proven minimum." if proven else "NOT ALL PROVEN.")
+    )
+
+
+def speed_note(rows: Rows) -> str:
+    """Times of compile, build and solve with CP-SAT, one thread."""
+    cuts = [cut for row in rows for cut in row["cuts"].values()]
+    parts = [
+        f"`{name}`: median {median(c[key] for c in cuts):.1f} ms a cut, at most "
+        f"{max(c[key] for c in cuts):.0f} ms, all {len(cuts)} cuts "
+        f"{sum(c[key] for c in cuts) / 1e3:.0f} s on one core"
+        for name, key in (("opening", "opening_ms"), ("span", "span_ms"))
+    ]
+    return "Compile, build and solve with CP-SAT on one thread: " + "; ".join(parts) + "."
+
+
+def solver_table(rows: Rows) -> str:
+    """Solved, proven, wrong, and times by formulation and solver."""
+    runs: dict[tuple[str, str], Rows] = defaultdict(list)
+    wrong: Counter[tuple[str, str]] = Counter()
+    for row in rows:
+        by_cut: dict[str, Rows] = defaultdict(list)
+        for run in row["runs"]:
+            runs[row["formulation"], run["solver"]].append(run)
+            by_cut[run["cut"]].append(run)
+        for group in by_cut.values():
+            # The answer that most solvers call optimal stands; whoever differs is counted.
+            optimal = [run for run in group if run["status"] == "optimal"]
+            votes = Counter(run["objective"] for run in optimal)
+            for run in optimal:
+                if run["objective"] != votes.most_common(1)[0][0]:
+                    wrong[row["formulation"], run["solver"]] += 1
+    lines = [
+        "| formulation | solver | instances | wrong | solved | proven | mean ms | median | worst |",
+        "|---|---|---|---|---|---|---|---|---|",
+    ]
+    for key, group in sorted(runs.items()):
+        times = [run["seconds"] for run in group]
+        lines.append(
+            f"| {key[0]} | {SOLVERS[key[1]][0]} | {len(group)} | {wrong[key]} "
+            f"| {sum(run['objective'] is not None for run in group)} "
+            f"| {sum(run['status'] == 'optimal' for run in group)} "
+            f"| {1e3 * shifted_geometric_mean(times):.1f} | {1e3 * median(times):.1f} "
+            f"| {1e3 * max(times):.0f} |"
+        )
+    note = (
+        f"Mean: geometric, shifted by {1e3 * SHIFT:.0f} ms. Times are build and solve, one run "
+        "each, one thread, limit 60 s. Wrong: called optimal, but not what most solvers found."
+    )
+    return "\n".join([*lines, "", note])
+
+
+def profile_figure(rows: Rows) -> Figure:
+    """Performance profile on `opening`: share of instances solved within x times the fastest."""
+    ratios: dict[str, list[float]] = defaultdict(list)
+    for row in rows:
+        by_cut: dict[str, dict[str, float]] = defaultdict(dict)
+        for run in row["runs"]:
+            if row["formulation"] == "opening" and run["solver"] != "exhaustive":
+                solved = run["status"] == "optimal"
+                by_cut[run["cut"]][run["solver"]] = run["seconds"] if solved else math.inf
+        for times in by_cut.values():
+            for solver, seconds in times.items():
+                ratios[solver].append(seconds / min(times.values()))
+    figure = Figure(figsize=(PANEL, PANEL), layout="constrained")
+    axes = figure.subplots()
+    for solver, (label, style, colour) in SOLVERS.items():
+        if ratios[solver]:
+            values = np.sort(ratios[solver])
+            share = np.arange(1, len(values) + 1) / len(values)
+            axes.step(values, share, where="post", label=label, linestyle=style, color=colour)
+    axes.set(
+        xscale="log",
+        xlabel="time over the fastest solver's",
+        ylabel="share of instances",
+        ylim=(0, 1.02),
+    )
+    axes.set_xticks([1, 2, 5, 10, 20], labels=["1", "2", "5", "10", "20"], minor=False)
+    axes.minorticks_off()
+    axes.legend(fontsize=7, frameon=False, loc="lower right")
+    axes.grid(alpha=0.3)
+    return figure
+
+
+def robots_figure(rows: Rows) -> Figure:
+    """Mean robots by crossing number, over all cuts: LCF, layered, opening, span."""
+    figure = Figure(figsize=(PANEL, PANEL), layout="constrained")
+    axes = figure.subplots()
+    numbers = sorted({row["crossing_number"] for row in rows})
+    for label, marker, colour, key in (
+        ("baseline 2N", "s", "#666666", "baseline"),
+        ("span, smallest", "v", "#CC79A7", "span"),
+        ("LCF", "o", "#0072B2", "lcf"),
+        ("opening, smallest", "^", "#D55E00", "opening"),
+        ("LCF layered", "D", "#009E73", "layered"),
+    ):
+        means = [
+            mean(
+                cut[key]
+                for row in rows
+                if row["crossing_number"] == number
+                for cut in row["cuts"].values()
+            )
+            for number in numbers
+        ]
+        axes.plot(numbers, means, marker=marker, color=colour, markersize=5, label=label)
+    axes.set(xlabel="crossing number", ylabel="mean number of robots", ylim=(0, None))
+    axes.legend(fontsize=7, frameon=False)
+    axes.grid(alpha=0.3)
+    return figure
+
+
+def growth_table(rows: Rows) -> str:
+    """Compile and solve times at each size, and what LCF has there."""
+    lines = [
+        "| formulation | family | N | runs | LCF | smallest | proven | compile s | solve s |",
+        "|---|---|---|---|---|---|---|---|---|",
+    ]
+    groups: dict[tuple[str, str, int], Rows] = defaultdict(list)
+    for row in rows:
+        groups[row["formulation"], row["family"], row["size"]].append(row)
+    for (formulation, family, size), group in groups.items():
+        solved = [row for row in group if row["robots"] is not None]
+        lines.append(
+            f"| {formulation} | {family} | {size} | {len(group)} "
+            f"| {mean(row['lcf'] for row in group):.1f} "
+            f"| {mean(row['robots'] for row in solved):.1f} "
+            f"| {sum(row['status'] == 'optimal' for row in group)} "
+            f"| {max(row['compile_seconds'] for row in group):.2f} "
+            f"| {max(row['solve_seconds'] for row in group):.3f} |"
+        )
+    return "\n".join([*lines, "", "Robots are means, seconds the worst of the runs; limit 60 s."])
+
+
+def growth_figure(rows: Rows) -> Figure:
+    """Compile plus solve time against grid size, log-log, by formulation and family."""
+    figure = Figure(figsize=(PANEL, PANEL), layout="constrained")
+    axes = figure.subplots()
+    for formulation, style in (("opening", "-"), ("span", "--")):
+        for family, (marker, colour) in FAMILIES.items():
+            times: dict[int, list[float]] = defaultdict(list)
+            for row in rows:
+                if (row["formulation"], row["family"]) == (formulation, family):
+                    times[row["size"]].append(row["compile_seconds"] + row["solve_seconds"])
+            axes.plot(
+                list(times),
+                [median(values) for values in times.values()],
+                marker=marker,
+                color=colour,
+                linestyle=style,
+                markersize=4,
+                label=f"{formulation}, {family}",
+            )
+    axes.set(xscale="log", yscale="log", xlabel="grid size N", ylabel="compile and solve [s]")
+    axes.set_xticks([10, 20, 40, 60], labels=["10", "20", "40", "60"])
+    axes.minorticks_off()
+    axes.legend(fontsize=6, frameon=False)
+    axes.grid(alpha=0.3)
+    return figure
+
+
+def certificates_note(rows: Rows) -> str:
+    """How many minima are certified, and what that takes."""
+    return (
+        f"{len(rows)} certificates for {sum(row['cuts'] for row in rows)} cuts, every "
+        f"crossing-free one of each knot ({sum(row['every_cut'] for row in rows)} of {len(rows)}): "
+        f"proven in {sum(row['prove_seconds'] for row in rows):.0f} s and checked in "
+        f"{sum(row['check_seconds'] for row in rows):.0f} s on one core, "
+        f"{sum(row['bytes'] for row in rows) / 1e6:.1f} MB."
+    )
+
+
+def write_parts() -> tuple[list[str], dict[str, Figure]]:
+    """The text of `formulations.md`, part by part, and its figures by file name."""
+    header, catalogue = load("formulations")
+    _, solvers = load("solvers")
+    _, growth = load("formulations_growth")
+    _, certificates = load("certificates")
+    machine = ", ".join(f"{key} {value}" for key, value in header["machine"].items())
+    parts = [
+        "# Benchmarks of the formulations",
+        f"One machine: {machine}. r = 0.5.",
+        "## LCF against the smallest sets: 249 prime knots, all crossing-free cuts (mean robots)",
+        counts_table(catalogue),
+        speed_note(catalogue),
+        "![robots by crossing number](formulations_robots.png)",
+        "## Solvers against each other",
+        solver_table(solvers),
+        "![performance profile](solvers_profile.png)",
+        "## Growth with the grid size, cut L+ (random grids: seeds 0 to 4)",
+        growth_table(growth),
+        "![time against grid size](formulations_growth.png)",
+        "## Certificates",
+        certificates_note(certificates),
+    ]
+    figures = {
+        "formulations_robots.png": robots_figure(catalogue),
+        "solvers_profile.png": profile_figure(solvers),
+        "formulations_growth.png": growth_figure(growth),
+    }
+    return parts, figures
