@@ -70,14 +70,14 @@ def counts_table(rows: Rows) -> str:
 
 def _lcf_note(cuts: Rows) -> str:
     is_open = [cut for cut in cuts if cut["lcf_open"]]
-    excess = [cut["lcf"] - cut["opening"] for cut in is_open]
-    fewer = [cut["opening"] - cut["lcf"] for cut in cuts if cut["lcf"] < cut["opening"]]
+    excess = [cut["lcf"] - cut["opening"] for cut in is_open] or [0]
+    fewer = [cut["opening"] - cut["lcf"] for cut in cuts if cut["lcf"] < cut["opening"]] or [0]
     proven = all(cut["opening_proven"] and cut["span_proven"] for cut in cuts)
     return (
         f"LCF's set is open (r = 0.5) on {100 * len(is_open) / len(cuts):.1f} % of the cuts; there "
         f"it uses {mean(excess):.2f} robots more than the smallest open set (mean; at most "
         f"{max(excess)}), and is smallest on {100 * mean(e == 0 for e in excess):.1f} %. On "
-        f"{100 * len(fewer) / len(cuts):.1f} % of the cuts it uses fewer robots than any open set "
+        f"{100 * sum(f > 0 for f in fewer) / len(cuts):.1f} % of the cuts it uses fewer robots than any open set "
         f"has (by {mean(fewer):.2f} in the mean). "
         + ("Every number of opening and span is a proven minimum." if proven else "NOT ALL PROVEN.")
     )
