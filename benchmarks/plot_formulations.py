@@ -77,8 +77,8 @@ def _lcf_note(cuts: Rows) -> str:
         f"LCF's set is open (r = 0.5) on {100 * len(is_open) / len(cuts):.1f} % of the cuts; there "
         f"it uses {mean(excess):.2f} robots more than the smallest open set (mean; at most "
         f"{max(excess)}), and is smallest on {100 * mean(e == 0 for e in excess):.1f} %. On "
-        f"{100 * sum(f > 0 for f in fewer) / len(cuts):.1f} % of the cuts it uses fewer robots than any open set "
-        f"has (by {mean(fewer):.2f} in the mean). "
+        f"{100 * sum(f > 0 for f in fewer) / len(cuts):.1f} % of the cuts it uses fewer robots "
+        f"than any open set has (by {mean(fewer):.2f} in the mean). "
         + ("Every number of opening and span is a proven minimum." if proven else "NOT ALL PROVEN.")
     )
 

@@ -105,19 +105,22 @@ class Solution:
     solver : str
         Backend, package and version.
     threads, seed : int
+    interrupted : bool
+        Whether it was stopped by Ctrl-C, so that whoever solves many should stop as well.
     """
 
     status: Status
     raw_status: str
-    chosen: tuple[int, ...] | None
-    objective: int | None
-    bound: int | None
-    start_accepted: bool | None
-    build_seconds: float
-    solve_seconds: float
-    solver: str
+    chosen: tuple[int, ...] | None = None
+    objective: int | None = None
+    bound: int | None = None
+    start_accepted: bool | None = None
+    build_seconds: float = 0.0
+    solve_seconds: float = 0.0
+    solver: str = "none"
     threads: int = 1
     seed: int = 0
+    interrupted: bool = False
 
     @property
     def gap(self) -> float | None:
@@ -206,4 +209,18 @@ def checked(
         solver,
         limits.threads,
         limits.seed,
+        _interrupted(answer, status, objective, bound, limits),
     )
+
+
+def _interrupted(
+    answer: Answer, status: Status, objective: int | None, bound: int | None, limits: Limits
+) -> bool:
+    """Whether a solver stopped early although no limit was reached."""
+    if status not in (Status.FEASIBLE, Status.UNKNOWN):
+        return False
+    if limits.seconds is not None and answer.solve_seconds > 0.9 * limits.seconds:
+        return False
+    if limits.gap and objective is not None and bound is not None:
+        return (objective - bound) / max(1, objective) > limits.gap
+    return True

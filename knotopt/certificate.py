@@ -68,6 +68,8 @@ def prove(
     chosen = tuple(crossing_free_cuts(diagram) if cuts is None else cuts)
     search = best_supports(diagram, asked, cuts=chosen, limits=limits)
     best = search.best
+    if search.interrupted:
+        raise KeyboardInterrupt
     if not search.is_proven:
         raise CertificateError(f"{name}: the minimum was not proven within the limits")
     if method is None:

@@ -103,6 +103,8 @@ def compare(
             diagram, asked, cuts=chosen, solver=solver, limits=limits, canonical=False
         )
         seconds[asked.formulation] = time.perf_counter() - began
+        if searches[asked.formulation].interrupted:
+            raise KeyboardInterrupt
     by_opening, by_span = searches[Formulation.OPENING], searches[Formulation.SPAN]
     return ComparisonRow(
         knot=name,

@@ -237,14 +237,24 @@ def _search(
     from rich.console import Console
     from rich.progress import Progress
 
-    from knotopt.cable.cut import Cut
+    from knotopt.cable.cut import Cut, crossing_free_cuts
     from knotopt.supports.search import best_diagram, best_supports
 
-    if diagrams == 1:
-        chosen = None if cut == "best" else [Cut.parse(cut, diagram.size)]
-        return best_supports(diagram, asked, cuts=chosen, solver=solver, limits=limits), None
+    free = crossing_free_cuts(diagram)
+    cuts = free if cut == "best" else (Cut.parse(cut, diagram.size),)
     console = Console(stderr=True)
     with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
+        if diagrams == 1:
+            task = bar.add_task("cuts", total=len(cuts))
+            search = best_supports(
+                diagram,
+                asked,
+                cuts=cuts,
+                solver=solver,
+                limits=limits,
+                progress=lambda done: bar.update(task, completed=done),
+            )
+            return search, None
         task = bar.add_task("diagrams", total=diagrams)
         tried = best_diagram(
             diagram,

@@ -179,9 +179,14 @@ def minimal_supports(
             return _widest(program, seeded, asked, backend, deadline)
         level = float(asked.openness**2)
         instance = program.instance(level)
-        if better_than is not None:
+        if better_than is None:
+            solution = backend.solve(instance, limits)
+        elif (packed := instance.packing_bound()) >= better_than:
+            words = f"{packed} robots at least, by rows that share no point"
+            solution = Solution(Status.INFEASIBLE, words, bound=packed)
+        else:
             instance = instance.with_rows([instance.at_most(better_than - 1)])
-        solution = backend.solve(instance, limits)
+            solution = backend.solve(instance, limits)
         chosen, sure = solution.chosen, False
         if solution.status is Status.OPTIMAL and chosen is not None and canonical:
             size = len(chosen)

@@ -22,8 +22,7 @@ from knotopt.diagram.moves import (
     translate,
 )
 from knotopt.errors import MoveError
-from knotopt.supports.lcf import lcf
-from knotopt.supports.minimal import SMALLEST, MinimalSupports, compile_program, minimal_supports
+from knotopt.supports.minimal import MinimalSupports, minimal_supports
 from knotopt.supports.requirements import Requirements
 
 
@@ -58,10 +57,13 @@ class CutSearch:
         On the first cut with the fewest robots. If no cut has a set, what is known of the first.
     outcomes : tuple of CutOutcome
         One for every cut, in order.
+    interrupted : bool
+        Whether Ctrl-C ended the search.
     """
 
     best: MinimalSupports
     outcomes: tuple[CutOutcome, ...]
+    interrupted: bool = False
 
     @property
     def is_proven(self) -> bool:
@@ -103,8 +105,11 @@ def best_supports(
     limits: Limits | None = None,
     canonical: bool = True,
     better_than: int | None = None,
+    progress: Callable[[int], None] | None = None,
 ) -> CutSearch:
     """The smallest set of supports over the cuts of a diagram.
+
+    Ctrl-C ends the search with what is known.
 
     Parameters
     ----------
@@ -116,6 +121,8 @@ def best_supports(
         As for `minimal_supports`; the time limit is for all cuts together.
     better_than : int, optional
         Only sets of fewer robots are of interest.
+    progress : callable, optional
+        Told after each cut how many are done.
 
     Examples
     --------
@@ -128,48 +135,37 @@ def best_supports(
     """
     asked = requirements or Requirements()
     deadline = Deadline(limits or Limits())
-    if asked.max_robots is not None:
-        return _widest_cut(diagram, asked, cuts, solver, deadline)
+    chosen = tuple(crossing_free_cuts(diagram) if cuts is None else cuts)
     best: MinimalSupports | None = None
-    outcomes = []
-    incumbent = better_than
-    for cut in crossing_free_cuts(diagram) if cuts is None else cuts:
-        cable = Cable(diagram, cut)
-        if incumbent is not None:
-            program = compile_program(lcf(cable), asked)
-            packed = program.instance(SMALLEST).packing_bound()
-            if packed >= incumbent:
-                outcomes.append(CutOutcome(cut, None, packed, Status.UNKNOWN))
-                continue
+    outcomes: list[CutOutcome] = []
+    widest = asked.max_robots is not None
+    incumbent, interrupted = None if widest else better_than, False
+    for cut in chosen:
         result = minimal_supports(
-            cable,
+            Cable(diagram, cut),
             asked,
             solver=solver,
             limits=deadline.left(),
-            canonical=False,
+            canonical=widest,
             better_than=incumbent,
         )
-        status, bound = result.solution.status, result.solution.bound
-        if status is Status.INFEASIBLE and incumbent is not None:
-            status, bound = Status.UNKNOWN, incumbent
-        robots = result.robots if result.found else None
-        outcomes.append(CutOutcome(cut, robots, bound, status))
-        if best is None or (result.found and (not best.found or result.robots < best.robots)):
-            best = result
-        if result.found:
+        outcomes.append(_outcome(result, incumbent))
+        if result.found and not widest:
             incumbent = result.robots
-    if best is None:  # every cut was skipped: say so of the first one
-        best = minimal_supports(
-            Cable(diagram, outcomes[0].cut),
-            asked,
-            solver=solver,
-            limits=deadline.left(),
-            canonical=False,
-            better_than=incumbent,
-        )
-    elif better_than is None if not best.found else canonical:
+        if best is None or is_better(result, best):
+            best = result
+        if progress is not None:
+            progress(len(outcomes))
+        interrupted = result.solution.interrupted
+        if interrupted:
+            break
+    outcomes += [CutOutcome(cut, None, None, Status.UNKNOWN) for cut in chosen[len(outcomes) :]]
+    assert best is not None  # every diagram has crossing-free cuts
+    # Once more for the one canonical set, or for the reason why there is none.
+    again = canonical if best.found else better_than is None
+    if again and not widest and not interrupted:
         best = minimal_supports(best.cable, asked, solver=solver, limits=deadline.left())
-    return CutSearch(best, tuple(outcomes))
+    return CutSearch(best, tuple(outcomes), interrupted)
 
 
 def supports_by_cut(
@@ -180,12 +176,18 @@ def supports_by_cut(
     solver: str = DEFAULT,
     limits: Limits | None = None,
 ) -> Iterator[MinimalSupports]:
-    """The smallest set of every cut by itself; by default of every crossing-free one."""
+    """The smallest set of every cut by itself; by default of every crossing-free one.
+
+    Ctrl-C ends it after the cut at hand.
+    """
     deadline = Deadline(limits or Limits())
     for cut in crossing_free_cuts(diagram) if cuts is None else cuts:
-        yield minimal_supports(
+        result = minimal_supports(
             Cable(diagram, cut), requirements, solver=solver, limits=deadline.left()
         )
+        yield result
+        if result.solution.interrupted:
+            return
 
 
 def best_diagram(
@@ -212,7 +214,7 @@ def best_diagram(
         Told after each diagram how many are done.
     """
     deadline = Deadline(limits or Limits())
-    best = best_supports(diagram, requirements, solver=solver, limits=deadline.left())
+    best = search = best_supports(diagram, requirements, solver=solver, limits=deadline.left())
     tried = 0
     for tried, candidate in enumerate(_walk(diagram, budget, seed), 1):
         if tried > 1:
@@ -223,10 +225,12 @@ def best_diagram(
                 limits=deadline.left(),
                 better_than=best.best.robots if best.best.found else None,
             )
-            if _is_better(search.best, best.best):
+            if is_better(search.best, best.best):
                 best = search
         if progress is not None:
             progress(tried)
+        if search.interrupted:
+            break
     return DiagramSearch(best, tried, seed)
 
 
@@ -256,27 +260,16 @@ def _walk(diagram: GridDiagram, budget: int, seed: int) -> Iterator[GridDiagram]
             yield diagram
 
 
-def _widest_cut(
-    diagram: GridDiagram,
-    asked: Requirements,
-    cuts: Iterable[Cut] | None,
-    solver: str,
-    deadline: Deadline,
-) -> CutSearch:
-    """With a largest number of robots: the first cut with the largest smallest opening."""
-    best: MinimalSupports | None = None
-    outcomes = []
-    for cut in crossing_free_cuts(diagram) if cuts is None else cuts:
-        result = minimal_supports(Cable(diagram, cut), asked, solver=solver, limits=deadline.left())
-        robots = result.robots if result.found else None
-        outcomes.append(CutOutcome(cut, robots, result.solution.bound, result.solution.status))
-        if best is None or _is_better(result, best):
-            best = result
-    assert best is not None
-    return CutSearch(best, tuple(outcomes))
+def _outcome(result: MinimalSupports, incumbent: int | None) -> CutOutcome:
+    """What a solve says of its cut, if only sets smaller than the incumbent were asked for."""
+    status, bound = result.solution.status, result.solution.bound
+    if status is Status.INFEASIBLE and incumbent is not None:
+        status, bound = Status.UNKNOWN, max(incumbent, bound or 0)
+    robots = result.robots if result.found else None
+    return CutOutcome(result.cable.cut, robots, bound, status)
 
 
-def _is_better(result: MinimalSupports, other: MinimalSupports) -> bool:
+def is_better(result: MinimalSupports, other: MinimalSupports) -> bool:
     """Fewer robots; with a largest number of robots: a larger smallest opening."""
     if not (result.found and other.found):
         return result.found

@@ -24,12 +24,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
+from math import prod
 
 import numpy as np
 
 from formulations.span import Conflict, SpanProgram
 from formulations.team import Team
 from knotopt.cable.cable import BoolArray, Cable, IntArray
+from knotopt.errors import RequirementError
 from knotopt.supports.opening import (
     FloatArray,
     cross,
@@ -39,6 +41,8 @@ from knotopt.supports.opening import (
 )
 from knotopt.supports.regions import Regions
 from knotopt.supports.threading import Threading, threading_points
+
+MAX_TRIPLES = 40_000_000  # pairs or triples of spans judged at one region
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,6 +98,12 @@ def compile_span(
         Turning points (1-based) of a first guess.
     pockets : bool
         Whether pockets must survive, too, or loops only.
+
+    Raises
+    ------
+    RequirementError
+        A region with more than `MAX_TRIPLES` pairs or triples of spans (random grids beyond N of
+        some 36 to 40).
 
     Notes
     -----
@@ -293,7 +303,7 @@ def _corner(
     """
     before, after = cable.points[first.anchor][:, None], cable.points[second.anchor][None]
     times = cable.times
-    margins = np.full((len(first.spans), len(second.spans)), np.inf)
+    margins = _no_margins(cable, len(first.spans), len(second.spans))
     for thread in threads:
         q = thread.q
         moved = _meet(
@@ -309,6 +319,15 @@ def _corner(
         margins = np.minimum(margins, np.where(moved.meets & (wound == 0), clear, 0.0))
     margins[_overlap(first.spans[:, None], second.spans[None])] = np.inf
     return Conflict(first.spans + 1, second.spans + 1, None, margins, origin)
+
+
+def _no_margins(cable: Cable, *shape: int) -> FloatArray:
+    if prod(shape) > MAX_TRIPLES:
+        raise RequirementError(
+            f"formulation span on a grid of size {cable.diagram.size} judges {prod(shape):,} sets "
+            f"of spans at one region; {MAX_TRIPLES:,} are allowed (some 3 GiB)"
+        )
+    return np.full(shape, np.inf)
 
 
 def _side(
@@ -328,7 +347,7 @@ def _side(
     first, second = ends
     times = cable.times
     before, after = cable.points[first.anchor][None], cable.points[second.anchor][None]
-    margins = np.full((len(spans), len(first.spans), len(second.spans)), np.inf)
+    margins = _no_margins(cable, len(spans), len(first.spans), len(second.spans))
     for thread in threads:
         q, turns = thread.q, partial(path_turns, cable, q=thread.index)
         chords = _laid(cable, spans, thread, closes)
