@@ -9,25 +9,25 @@ from typing import Annotated
 import typer
 
 from knotopt.cli.output import (
+    CatalogueOption,
     JsonOption,
+    KnotsArgument,
     OpennessOption,
     SolverOption,
     TimeLimitOption,
+    find_knots,
     print_json,
     print_note,
     print_table,
     print_written,
+    solver_limits,
     track,
 )
 
 
 def compare(
-    knots: Annotated[
-        list[str] | None, typer.Argument(metavar="KNOT...", show_default=False, help="Knots.")
-    ] = None,
-    catalogue: Annotated[
-        bool, typer.Option("--catalogue", help="All 249 prime knots up to 10 crossings.")
-    ] = False,
+    knots: KnotsArgument = None,
+    catalogue: CatalogueOption = False,
     cut: Annotated[
         str, typer.Option(help="best (each method's own of the crossing-free cuts), or one: L+ ...")
     ] = "best",
@@ -44,24 +44,15 @@ def compare(
 
     Example: knotopt compare 3 4 5 8_19 'T(3,5)' --out comparison.tex
     """
-    from formulations.solution import BackendError, Limits
     from knotopt import comparison
     from knotopt.cable.cut import Cut
-    from knotopt.catalogue.knots import shipped_knots
-    from knotopt.catalogue.lookup import find_knot
-    from knotopt.errors import OutputError, SolverError
+    from knotopt.errors import OutputError
     from knotopt.files import write_atomically
 
-    if catalogue == bool(knots):
-        raise typer.BadParameter("give knots, or --catalogue", param_hint="KNOT...")
+    found = find_knots(knots, catalogue=catalogue)
     if out is not None and out.suffix.lower() not in comparison.FORMATS:
         raise OutputError(f"{out}: tables are written as {', '.join(comparison.FORMATS)}")
-    names = list(shipped_knots()) if catalogue else list(knots or ())
-    found = [find_knot(name) for name in names]
-    try:
-        limits = Limits(time_limit)
-    except BackendError as error:
-        raise SolverError(str(error)) from error
+    limits = solver_limits(time_limit)
     rows = [
         comparison.compare(
             named.name,

@@ -6,9 +6,13 @@ import json
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Annotated, Any, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
+
+if TYPE_CHECKING:
+    from formulations.solution import Limits
+    from knotopt.catalogue.lookup import NamedDiagram
 
 Item = TypeVar("Item")
 
@@ -19,6 +23,13 @@ KnotArgument = Annotated[
         show_default=False,
         help="A name (8_19), a row of Table I (3, '7 Var1'), 'T(2,7)', or a .json or .csv file.",
     ),
+]
+KnotsArgument = Annotated[
+    list[str] | None,
+    typer.Argument(metavar="KNOT...", show_default=False, help="Knots, each as above."),
+]
+CatalogueOption = Annotated[
+    bool, typer.Option("--catalogue", help="All 249 prime knots up to 10 crossings.")
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
 PlotOption = Annotated[
@@ -95,6 +106,29 @@ def print_table(columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
 def print_written(path: Path) -> None:
     """Say where a result was written."""
     print(f"written: {path}")
+
+
+def find_knots(names: list[str] | None, *, catalogue: bool) -> list[NamedDiagram]:
+    """The knots named, or all of the catalogue."""
+    from knotopt.catalogue.knots import shipped_knots
+    from knotopt.catalogue.lookup import find_knot
+
+    if catalogue == bool(names):
+        raise typer.BadParameter("give knots, or --catalogue", param_hint="KNOT...")
+    return [find_knot(name) for name in (shipped_knots() if catalogue else names or ())]
+
+
+def solver_limits(
+    seconds: float | None, gap: float = 0.0, threads: int = 1, seed: int = 0
+) -> Limits:
+    """Limits of a solver from options; wrong ones are this package's errors."""
+    from formulations.solution import BackendError, Limits
+    from knotopt.errors import SolverError
+
+    try:
+        return Limits(seconds, gap, threads, seed)
+    except BackendError as error:
+        raise SolverError(str(error)) from error
 
 
 def track(items: Iterable[Item], what: str, total: int) -> Iterator[Item]:

@@ -8,25 +8,25 @@ from typing import Annotated, cast, get_args
 import typer
 
 from knotopt.cli.output import (
+    CatalogueOption,
     FormulationOption,
     JsonOption,
+    KnotsArgument,
     OpennessOption,
     ThreadingOption,
     TimeLimitOption,
+    find_knots,
     print_json,
     print_table,
     print_written,
+    solver_limits,
     track,
 )
 
 
 def prove(
-    knots: Annotated[
-        list[str] | None, typer.Argument(metavar="KNOT...", show_default=False, help="Knots.")
-    ] = None,
-    catalogue: Annotated[
-        bool, typer.Option("--catalogue", help="All 249 prime knots up to 10 crossings.")
-    ] = False,
+    knots: KnotsArgument = None,
+    catalogue: CatalogueOption = False,
     formulation: FormulationOption = "opening",
     threading: ThreadingOption = None,
     r: OpennessOption = None,
@@ -51,26 +51,17 @@ def prove(
     A run over many knots that is interrupted goes on where it stopped.
     Example: knotopt prove 8_19 --out 8_19.jsonl
     """
-    from formulations.solution import BackendError, Limits
     from knotopt.cable.cut import Cut
-    from knotopt.catalogue.knots import shipped_knots
-    from knotopt.catalogue.lookup import find_knot
     from knotopt.certificate import Method
     from knotopt.certificate import prove as prove_knot
-    from knotopt.errors import SolverError
     from knotopt.files import resumable_lines
     from knotopt.supports.requirements import Requirements
 
-    if catalogue == bool(knots):
-        raise typer.BadParameter("give knots, or --catalogue", param_hint="KNOT...")
+    found = find_knots(knots, catalogue=catalogue)
     if method not in (None, *get_args(Method)):
         raise typer.BadParameter("expected refutation or count", param_hint="--method")
     asked = Requirements(formulation, r, threading)
-    found = [find_knot(name) for name in (shipped_knots() if catalogue else knots or ())]
-    try:
-        limits = Limits(time_limit)
-    except BackendError as error:
-        raise SolverError(str(error)) from error
+    limits = solver_limits(time_limit)
     header = f"{formulation} {asked.threading} {asked.openness} {cut} {method}"
     with resumable_lines(out, f"{header} {' '.join(named.name for named in found)}") as lines:
         for named in track(found[len(lines.done) :], "knots", len(found) - len(lines.done)):

@@ -20,6 +20,7 @@ from knotopt.cli.output import (
     print_json,
     print_table,
     print_written,
+    solver_limits,
     track,
 )
 
@@ -104,10 +105,8 @@ def solve(
 
     Example: knotopt solve '7 Var2' --formulation span --plot supports.png
     """
-    from formulations.solution import BackendError, Limits
     from knotopt.cable.cut import crossing_free_cuts
     from knotopt.catalogue.lookup import find_knot
-    from knotopt.errors import SolverError
     from knotopt.supports.minimal import all_minimal
     from knotopt.supports.requirements import Requirements
     from knotopt.supports.search import supports_by_cut
@@ -124,10 +123,7 @@ def solve(
         forced=tuple(force or ()),
         max_robots=max_robots,
     )
-    try:
-        limits = Limits(time_limit, gap, threads, seed)
-    except BackendError as error:
-        raise SolverError(str(error)) from error
+    limits = solver_limits(time_limit, gap, threads, seed)
     _check_options(cut, diagrams, {"--plot": plot, "--export": export, "--all": every})
     _check_outputs(plot, export)
     if cut == "all":

@@ -107,23 +107,9 @@ class MinimalSupports(SupportSet):
     def _examine(self, supports: tuple[int, ...]) -> OpeningReport:
         cable, asked = self.cable, self.requirements
         openness = asked.openness if asked.max_robots is None else Fraction(1, 10**6)
-        if asked.formulation is Formulation.SPAN:
-            return check_span(
-                cable.path,
-                cable.diagram.size,
-                supports,
-                openness,
-                asked.threading,
-                regions=defined_regions(self.lcf.regions),
-            )
-        return check_opening(
-            cable.path,
-            cable.diagram.size,
-            supports,
-            openness,
-            asked.threading,
-            regions=defined_regions(self.lcf.regions),
-        )
+        check = check_span if asked.formulation is Formulation.SPAN else check_opening
+        regions = defined_regions(self.lcf.regions)
+        return check(cable.path, cable.diagram.size, supports, openness, asked.threading, regions)
 
 
 def minimal_supports(
