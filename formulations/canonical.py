@@ -25,32 +25,36 @@ class Program(Protocol):
 
 def widest(
     program: Program, backend: Backend, limits: Limits, at_least: float, at_most: int
-) -> tuple[float, tuple[int, ...]] | None:
+) -> tuple[tuple[float, tuple[int, ...]] | None, bool]:
     """The largest squared openness (1 at most) at which `at_most` decisions suffice.
 
     Binary search over the levels from `at_least` on.
 
     Returns
     -------
-    openness squared and a set, or None if none was found (or not known within the limits)
+    openness squared and a set (None if no set was found), and whether that is sure: whether every
+    solve that found no set has shown that there is none
     """
     deadline = Deadline(limits)
     levels = [at_least, *(level for level in program.levels.tolist() if level > at_least)]
     if levels[-1] < 1.0:
         levels.append(1.0)
-    low, high, best = 0, len(levels) - 1, None
+    low, high = 0, len(levels) - 1
+    best: tuple[float, tuple[int, ...]] | None = None
+    sure = True
     while low <= high:
         middle = (low + high) // 2 if best is not None else low
         instance = program.instance(levels[middle])
-        found = satisfy(instance, backend, deadline.left(), [instance.at_most(at_most)])
+        status, found = attempt(instance, backend, deadline.left(), [instance.at_most(at_most)])
         if found is not None:
             best = levels[middle], found
             low = middle + 1
-        elif best is None:
-            return None
-        else:
-            high = middle - 1
-    return best
+            continue
+        sure = sure and status is Status.INFEASIBLE
+        if best is None:
+            break
+        high = middle - 1
+    return best, sure
 
 
 def lexicographically_first(
@@ -81,17 +85,13 @@ def lexicographically_first(
     return known, True
 
 
-def satisfy(
-    instance: Instance, backend: Backend, limits: Limits, rows: list[Row]
-) -> tuple[int, ...] | None:
-    """Any set that satisfies the instance and further rows, whatever it costs."""
-    return attempt(instance, backend, limits, rows)[1]
-
-
 def attempt(
     instance: Instance, backend: Backend, limits: Limits, rows: list[Row]
 ) -> tuple[Status, tuple[int, ...] | None]:
-    """As `satisfy`, with the status that tells an impossible one from an unfinished one."""
+    """Any set that satisfies the instance and further rows, whatever it costs.
+
+    The status tells an impossible one from an unfinished search.
+    """
     free = replace(
         instance, objective=(0,) * len(instance.variables), rows=(*instance.rows, *rows), start=None
     )

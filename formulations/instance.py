@@ -95,8 +95,11 @@ class Instance:
                 f"{len(self.definitions)} definitions"
             )
         for number, row in enumerate(self.rows, 1):
-            if row.literals and (0 in row.literals or max(map(abs, row.literals)) > count):
+            named = set(map(abs, row.literals))
+            if named and (min(named) < 1 or max(named) > count):
                 raise InstanceError(f"row {number} ({row.family}): a literal names no variable")
+            if len(named) < len(row.literals):
+                raise InstanceError(f"row {number} ({row.family}): a variable stands there twice")
         for number, literals in enumerate(self.definitions, self.decisions + 1):
             if not literals or max(map(abs, literals)) >= number or 0 in literals:
                 raise InstanceError(f"variable {number} is not defined by earlier ones")
@@ -142,6 +145,11 @@ class Instance:
         """Decision variables that a row of one literal fixes, and to what."""
         units = (row.literals[0] for row in self.rows if len(row.literals) == row.at_least == 1)
         return {abs(x): int(x > 0) for x in units if abs(x) <= self.decisions}
+
+    @cached_property
+    def impossible(self) -> Row | None:
+        """A row that asks for more true literals than it has, if there is one."""
+        return next((row for row in self.rows if row.at_least > len(row.literals)), None)
 
     def with_rows(self, rows: Iterable[Row]) -> Instance:
         """The instance with further rows."""
@@ -211,12 +219,12 @@ class Instance:
             return cls(
                 name=str(content["name"]),
                 variables=tuple(map(str, content["variables"])),
-                decisions=int(content["decisions"]),
+                decisions=_integer(content["decisions"]),
                 objective=_integers(content["objective"]),
                 rows=tuple(
                     Row(
                         _integers(row["literals"]),
-                        int(row["at_least"]),
+                        _integer(row["at_least"]),
                         str(row["family"]),
                         str(row["origin"]),
                     )
@@ -238,5 +246,13 @@ class Instance:
         return hashlib.sha256(self.to_json().encode()).hexdigest()
 
 
+def _integer(value: Any) -> int:
+    if not isinstance(value, int) or isinstance(value, bool):
+        raise TypeError(f"{value!r} is no integer")
+    return value
+
+
 def _integers(values: Any) -> tuple[int, ...]:
-    return tuple(int(value) for value in values)
+    if not isinstance(values, list):
+        raise TypeError(f"{values!r} is no list")
+    return tuple(map(_integer, values))

@@ -30,6 +30,11 @@ class Feature(StrEnum):
     THREADS = "threads"  # uses more than one
     SEED = "seed"  # has randomness to fix
 
+    @property
+    def phrase(self) -> str:
+        """What a user asks for, in words."""
+        return {"gap": "a gap", "threads": "more than one thread"}.get(self, self)
+
 
 class BackendError(ValueError):
     """A backend that does not exist, or is asked for what it cannot do."""
@@ -194,6 +199,8 @@ def checked(
                 status = Status.OPTIMAL if bound >= objective else Status.FEASIBLE
             elif status is Status.FEASIBLE and bound is not None and bound >= objective:
                 status = Status.OPTIMAL
+    elif status is Status.INFEASIBLE:
+        bound = None
     elif status in (Status.OPTIMAL, Status.FEASIBLE):
         raw += "; but it returned no solution"
         status = Status.ERROR
@@ -211,6 +218,21 @@ def checked(
         limits.seed,
         _interrupted(answer, status, objective, bound, limits),
     )
+
+
+def answer_at_once(instance: Instance, limits: Limits, solver: str) -> Solution | None:
+    """The solution of an instance that needs no solver: without rows, or with an impossible one.
+
+    Solvers differ in what they say of these.
+    """
+    if instance.impossible is not None:
+        row = instance.impossible
+        answer = Answer(Status.INFEASIBLE, f"{row.family}: {row.origin}: too few literals")
+    elif not instance.rows:
+        answer = Answer(Status.OPTIMAL, "no rows", [0] * len(instance.variables))
+    else:
+        return None
+    return checked(answer, instance, limits, build_seconds=0.0, solver=solver)
 
 
 def _interrupted(

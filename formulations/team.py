@@ -80,8 +80,9 @@ class Team:
                 helper = first + len(definitions)
                 definitions.append(option)
                 helpers.append(helper)
-                # A helper implies each of its literals.
+                # A helper stands for its option: it implies each literal, and they imply it.
                 rows += [Row((-helper, x), 1, "reach", target.origin) for x in option]
+                rows.append(Row((helper, *(-x for x in option)), 1, "reach", target.origin))
             # Reach: one of the options holds.
             rows.append(Row(tuple(helpers), 1, "reach", target.origin))
         return definitions, rows

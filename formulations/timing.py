@@ -17,6 +17,12 @@ class Deadline:
         self.limits = limits
         self.started = time.perf_counter()
 
+    @property
+    def passed(self) -> bool:
+        """Whether the time is over."""
+        seconds = self.limits.seconds
+        return seconds is not None and time.perf_counter() - self.started > seconds
+
     def left(self) -> Limits:
         """The same limits with the seconds that remain."""
         if self.limits.seconds is None:

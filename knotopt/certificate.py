@@ -46,8 +46,8 @@ def prove(
     cuts : iterable of Cut, optional
         By default every crossing-free one.
     method : "refutation" or "count", optional
-        By default a refutation by CaDiCaL for `opening`; `span` is proven by counting, and so is
-        what small numbers of smaller sets allow.
+        By default a refutation by CaDiCaL for `opening`, counting (the checker goes through all
+        smaller sets, `MAX_COUNT` at most) for `span`.
     limits : Limits, optional
 
     Raises
@@ -65,7 +65,7 @@ def prove(
             "a certificate is about a formulation, an openness and a threading mode; "
             "leave out the other options"
         )
-    chosen = tuple(crossing_free_cuts(diagram) if cuts is None else cuts)
+    chosen = tuple(dict.fromkeys(crossing_free_cuts(diagram) if cuts is None else cuts))
     search = best_supports(diagram, asked, cuts=chosen, limits=limits)
     best = search.best
     if search.interrupted:

@@ -24,8 +24,8 @@ HEADS = ("knot", "before", "LCF", "open", "layered", "open", "opening", "span", 
 NOTE = """\
 Robots, the two lifting ones included. Each method has its own best of the cuts named (ties: the \
 first). LCF is "open" if its set keeps every active region open by the definition of `opening` \
-with the same r and threading by turning points; `opening` and `span` are proven if no smaller set \
-exists on any of the cuts."""
+with the same r and threading by turning points, as for `opening`; for `span` strands thread that \
+change between over and under. Proven: neither has a smaller set on any of the cuts."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +37,7 @@ class ComparisonRow:
     """
 
     knot: str
+    source: str
     grid_size: int
     crossings: int
     cuts: int
@@ -63,6 +64,7 @@ def compare(
     name: str,
     diagram: GridDiagram,
     *,
+    source: str = "",
     openness: Fraction | float | None = None,
     cuts: Iterable[Cut] | None = None,
     solver: str = DEFAULT,
@@ -74,6 +76,8 @@ def compare(
     ----------
     name : str
     diagram : GridDiagram
+    source : str
+        Where the diagram comes from, in words.
     openness : optional
         r of both formulations [grid steps]; by default 0.5.
     cuts : iterable of Cut, optional
@@ -108,6 +112,7 @@ def compare(
     by_opening, by_span = searches[Formulation.OPENING], searches[Formulation.SPAN]
     return ComparisonRow(
         knot=name,
+        source=source,
         grid_size=diagram.size,
         crossings=len(plain.cable.crossings),
         cuts=len(chosen),
@@ -154,7 +159,8 @@ def display(row: ComparisonRow) -> list[str]:
         return "none" if value is None else str(value)
 
     return [
-        row.knot,
+        # One knot may have several grids: those of Table I are told from KnotInfo's.
+        f"{row.knot} ({row.source})" if row.source.startswith("Table I") else row.knot,
         str(row.robots_before),
         str(row.lcf_robots),
         yes(row.lcf_open),

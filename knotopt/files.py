@@ -64,24 +64,36 @@ def resumable_lines(path: Path, header: str, *, keep_header: bool = False) -> It
     """Collect the lines of a file, which lands under its name when all are there.
 
     Until then, and if anything fails, they are in `PATH.partial` after a line with the header. A
-    later call with the same header finds them in `done`; a torn last line is dropped, and a file
-    with another header is started anew. The header stays in the file if `keep_header` says so.
+    later call with the same header finds them in `done`; a torn last line is dropped. The header
+    stays in the file if `keep_header` says so.
 
     Raises
     ------
     OutputError
-        The file cannot be written there.
+        The file cannot be written there, or the partial one is of another run.
     """
     partial = path.with_name(f"{path.name}.partial")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        first, *rest = partial.read_text(encoding="utf-8").split("\n") if partial.exists() else [""]
-        done = rest[:-1] if first == header else []  # what follows the last line end is torn
-        write_atomically(partial, "\n".join([header, *done, ""]))
-        with partial.open("a", encoding="utf-8") as stream:
-            yield Lines(done, stream)
-        whole = partial.read_text(encoding="utf-8")
-        write_atomically(path, whole if keep_header else whole.split("\n", 1)[1])
-        partial.unlink()
+        text = partial.read_text(encoding="utf-8") if partial.exists() else f"{header}\n"
     except OSError as error:
         raise OutputError(f"cannot write {path}: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise OutputError(f"{partial} is damaged: remove the file") from error
+    first, *rest = text.split("\n")
+    if first != header:
+        raise OutputError(
+            f"{partial} has the beginning of another run: finish that one, or remove the file"
+        )
+    done = rest[:-1]  # what follows the last line end is torn
+    write_atomically(partial, "\n".join([header, *done, ""]))
+    try:
+        with partial.open("a", encoding="utf-8") as stream:
+            yield Lines(done, stream)
+    except BaseException:
+        if partial.read_text(encoding="utf-8") == f"{header}\n":
+            partial.unlink()  # nothing to go on from
+        raise
+    whole = partial.read_text(encoding="utf-8")
+    write_atomically(path, whole if keep_header else whole.split("\n", 1)[1])
+    partial.unlink()

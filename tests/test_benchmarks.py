@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 from benchmarks import __main__ as harness
 from benchmarks import plot
 from benchmarks.registry import BENCHMARKS, Benchmark, register
+from knotopt.errors import OutputError
 
 
 def records(path: Path) -> list[dict[str, Any]]:
@@ -65,13 +66,17 @@ def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path: Path) -> None:
     assert not partial.exists()
 
 
-def test_a_partial_run_of_another_kind_is_started_anew(tmp_path: Path) -> None:
+def test_a_partial_run_of_another_kind_is_kept(tmp_path: Path) -> None:
     counting = Benchmark(
         "counting", "", lambda _: ({"k": k} for k in range(2)), lambda case: {"k": case["k"]}
     )
-    (tmp_path / "counting.jsonl.partial").write_text(
-        '{"benchmark": "counting"}\n{"case": {"k": 0}}\n'
-    )
+    partial = tmp_path / "counting.jsonl.partial"
+    other = '{"benchmark": "counting"}\n{"case": {"k": 0}}\n'
+    partial.write_text(other)
+    with pytest.raises(OutputError, match="the beginning of another run"):
+        harness.run_benchmark(counting, tmp_path)
+    assert partial.read_text() == other
+    partial.unlink()
     header, *rows = records(harness.run_benchmark(counting, tmp_path))
     assert header["benchmark"] == "counting" and "machine" in header
     assert [row["result"] for row in rows] == [{"k": 0}, {"k": 1}]

@@ -122,14 +122,16 @@ def _more(content: dict[str, Any]) -> None:
         (_set("supports", [5, 6, 7, "8"]), "'8' is no integer"),
         (_set("supports", [3, 4, 9, 10]), "the set is not open"),
         (_set("openness", "1"), "the set is not open"),
-        (_set("openness", "2"), "does not lie in"),
+        (_set("openness", "2/1"), "does not lie in"),
         (_set("openness", "x"), "is no fraction"),
+        (_set("openness", "1e-2000000"), "is no fraction"),
         (_set("openness", 0.5), "not of type str"),
         (_set("threading", "never"), "no formulation"),
         (_set("formulation", "span"), "the set is not open"),
         (_set("cut", "R+"), "the set is not open"),
-        (_set("cut", "col3+"), "carries crossings"),
-        (_set("cut", "X"), "no cut is named 'X'"),
+        (_set("cut", "col3+"), "'col3.' is no crossing-free cut"),
+        (_set("cut", "X"), "'X' is no crossing-free cut"),
+        (lambda c: c["bounds"].append({**c["bounds"][0], "cut": "col1+"}), "is no crossing-free"),
         (_set("format", "x"), "not a certificate"),
         (_set("bounds", []), "own cut is missing"),
         (_set("every_cut", 1), "not of type bool"),
@@ -185,6 +187,9 @@ def test_torn_files_are_rejected(certificate: str) -> None:
     for length in (0, 1, 100, len(certificate) // 2, len(certificate) - 2):
         with pytest.raises(CertificateError, match="not JSON, or cut off"):
             check_certificate(certificate[:length])
+    for text in ("[" * 200_000, f'{{"robots": {"9" * 5001}}}'):
+        with pytest.raises(CertificateError, match="not JSON, or cut off"):
+            check_certificate(text)
     with pytest.raises(CertificateError, match="not a certificate"):
         check_certificate("[1]")
 

@@ -302,12 +302,16 @@ def test_solve_over_cuts_sets_and_diagrams(cli: Cli) -> None:
     rows = cli.json("solve", "7 Var2", "--cut", "all")
     assert [row["robots_after"] for row in rows] == [6, 12, 10, 10, 6, 12, 10, 10]
     status, out, _ = cli("solve", "7 Var2", "--cut", "all")
-    assert status == 0 and out.count("yes") >= 8
+    assert status == 0 and out.count("optimal") == 8 and "7_6: opening, threading" in out
+    rows = cli.json("solve", "5", "--cut", "all", "--separation", "4")
+    assert {(row["status"], row["bound"], row["robots_after"]) for row in rows} == {
+        ("infeasible", None, None)
+    }
     content = cli.json("solve", "9", "--all", "--cut", "L+")
     assert content["minimal_sets"] == [[9, 10, 11], [9, 10, 12], [9, 10, 13]]
     assert content["minimal_sets_complete"]
     status, out, _ = cli("solve", "9", "--all", "--count", "2", "--cut", "L+")
-    assert "2 smallest sets, and there are more" in out
+    assert "2 smallest sets, and maybe more (--count 2" in out
     content = cli.json("solve", "7 Var1", "--diagrams", "20", "--seed", "1")
     assert content["diagrams_tried"] == 20 and content["robots_after"] < 12
     status, out, _ = cli("solve", "7 Var1", "--diagrams", "20", "--seed", "1")
@@ -316,9 +320,10 @@ def test_solve_over_cuts_sets_and_diagrams(cli: Cli) -> None:
 
 def test_solve_with_what_a_team_asks(cli: Cli) -> None:
     status, out, _ = cli("solve", "5", "--separation", "4")
-    assert status == 1 and "no set of supports does what is asked" in out
+    assert status == 1 and "no set of supports does what is asked on any of 8 cuts" in out
     assert "  separation: p5 and p6\n" in out and "  opening: loop c1, threaded at p10" in out
-    content = cli.json("solve", "5", "--payload", "6", "--forbid", "8", "--force", "9")
+    one = ("--cut", "L+")
+    content = cli.json("solve", "5", "--payload", "6", "--forbid", "8", "--force", "9", *one)
     assert {support[0] for support in content["supports"]} >= {9}
     status, out, _ = cli("solve", "5", "--max-robots", "5", "--reach", "6")
     assert status == 0 and "no larger opening over 8 cuts" in out and "reach 6" in out
@@ -334,7 +339,10 @@ def test_solve_with_what_a_team_asks(cli: Cli) -> None:
         (("--threading", "x"), 1, "no threading mode is named 'x'"),
         (("--solver", "gurobi"), 1, "no solver is named 'gurobi'"),
         (("--force", "3", "--forbid", "3"), 1, "p3 is both forced and forbidden"),
-        (("--force", "99"), 1, "p99: the cable's turning points are p1 to p14"),
+        (("--force", "99", "--cut", "L+"), 1, "p99: the cable's turning points are p1 to p14"),
+        (("--force", "3"), 2, "turning points are numbered along one cable"),
+        (("--count", "3"), 2, "goes with --all"),
+        (("--solver", "maxsat", "--gap", "0.1"), 1, "solver maxsat cannot be given a gap"),
         (("--max-robots", "5", "--r", "0.5"), 1, "exclude each other"),
         (("--time-limit", "0"), 1, "time limit must be positive"),
         (("--gap", "2"), 1, "the gap must lie in [0, 1)"),
@@ -371,7 +379,7 @@ def test_compare(cli: Cli, tmp_path: Path) -> None:
         assert csv.DictReader(stream).fieldnames == list(rows[0])
     assert "| mean of 2 |" in (tmp_path / "a.md").read_text()
     latex = (tmp_path / "a.tex").read_text()
-    assert "\\toprule" in latex and "5\\_1 & 14 & 5 & no &" in latex
+    assert "\\toprule" in latex and "5\\_1 (Table I, row 5) & 14 & 5 & no &" in latex
     assert latex.count("&") == 8 * latex.count("\\\\\n")
     assert cli("compare", "3", "--cut", "T-")[0] == 0
     for arguments, code, message in (
@@ -388,18 +396,23 @@ def test_compare(cli: Cli, tmp_path: Path) -> None:
 def test_prove_and_check(cli: Cli, tmp_path: Path) -> None:
     file = tmp_path / "a.jsonl"
     status, out, _ = cli("prove", "3", "4", "--out", file)
-    assert (status, out) == (0, f"written: {file}\n") and list(tmp_path.iterdir()) == [file]
+    assert status == 0 and f"written: {file}\n" in out and list(tmp_path.iterdir()) == [file]
+    assert out.count("8 cuts") == 2
     status, out, _ = cli("check", file)
-    assert status == 0 and "2 accepted" in out and "all 8 cuts" in out
+    assert status == 0 and "2 accepted, 0 rejected" in out and "all 8 cuts" in out
     verdicts = cli.json("check", file, file)
-    assert [verdict["robots_after"] for verdict in verdicts] == [5, 5, 5, 5]
+    assert [verdict["robots_after"] for verdict in verdicts["accepted"]] == [5, 5, 5, 5]
+    assert {verdict["grid"] for verdict in verdicts["accepted"]} == {"catalogue"}
     whole = file.read_text()
     file.write_text(whole[:-100])
-    status, _, err = cli("check", file)
-    assert status == 1 and f"{file}, line 2: rejected: not JSON, or cut off" in err
+    status, out, _ = cli("check", file)
+    assert status == 1 and "1 accepted, 1 rejected" in out
+    assert f"rejected: {file}, line 2: not JSON, or cut off" in out
     file.write_text(whole.replace('"robots":5', '"robots":6'))
-    status, _, err = cli("check", file)
-    assert status == 1 and "line 1: rejected: 3 supports and 2 lifting robots are not 6" in err
+    status, out, _ = cli("check", file)
+    assert status == 1 and "line 1: 3 supports and 2 lifting robots are not 6" in out
+    file.write_text(whole.replace('"knot":"3_1"', '"knot":"8_19"'))
+    assert cli.json("check", file)["accepted"][0]["grid"] == "other"
     file.write_text("")
     assert "is empty" in cli("check", file)[2]
     assert "cannot read" in cli("check", tmp_path / "none")[2]
@@ -412,7 +425,7 @@ def test_prove_and_check(cli: Cli, tmp_path: Path) -> None:
     ):
         status, _, err = cli("prove", *arguments, "--out", tmp_path / "b.jsonl")
         assert status == code and message in err
-        assert not (tmp_path / "b.jsonl").exists()
+        assert [path.name for path in tmp_path.iterdir()] == ["a.jsonl"]
 
 
 def test_prove_goes_on_where_it_stopped(
@@ -434,7 +447,11 @@ def test_prove_goes_on_where_it_stopped(
         return original(name, *arguments, **options)
 
     monkeypatch.setattr(certificate, "prove", interrupted)
-    assert cli("prove", *knots, "--out", file)[0] == 130 and not file.exists()
+    status, _, err = cli("prove", *knots, "--out", file)
+    assert status == 130 and not file.exists()
+    assert f"stopped: 2 of 3 certificates are in {file}.partial" in err
+    status, _, err = cli("prove", "3", "--out", file)
+    assert status == 1 and "the beginning of another run" in err
     cli("prove", *knots, "--out", file)
     assert proven == ["3_1", "4_1", "5_1", "5_1"]
     assert file.read_text() == whole.read_text()

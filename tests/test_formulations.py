@@ -196,7 +196,8 @@ def test_refutations(instance: Instance) -> None:
 def test_conflicts_are_smallest(instance: Instance) -> None:
     if by_brute_force(instance):
         return
-    groups = conflict(instance, get_backend(), Limits())
+    groups, sure = conflict(instance, get_backend(), Limits())
+    assert sure
 
     def impossible(kept: set[tuple[str, str]]) -> bool:
         rows = tuple(row for row in instance.rows if (row.family, row.origin) in kept)
@@ -244,6 +245,17 @@ def test_a_wrong_answer_is_an_error() -> None:
     proven = Answer(Status.FEASIBLE, "time limit", [1, 1, 0], bound=1.2)
     found = checked(proven, COVER, Limits(), build_seconds=0, solver="")
     assert (found.status, found.gap) == (Status.OPTIMAL, 0)
+
+
+def test_instances_that_need_no_solver() -> None:
+    """Without rows, or with one that has too few literals: all solvers say the same."""
+    impossible = replace(COVER, rows=(*COVER.rows, Row((1,), 2, "two of one", "a")))
+    for name in BACKENDS:
+        found = get_backend(name).solve(impossible, Limits())
+        assert (found.status, found.bound) == (Status.INFEASIBLE, None)
+        assert "two of one: a" in found.raw_status
+        empty = get_backend(name).solve(replace(COVER, rows=()), Limits())
+        assert (empty.status, empty.chosen, empty.bound) == (Status.OPTIMAL, (), 0)
 
 
 def test_starts() -> None:
@@ -309,7 +321,8 @@ def test_what_makes_no_sense_is_refused() -> None:
             Limits(**limits)  # type: ignore[arg-type]
     with pytest.raises(BackendError, match="no solver is named 'gurobi'"):
         get_backend("gurobi")
-    wide = Instance("wide", tuple(map(str, range(23))), 23, (1,) * 23, ())
+    one = (Row((1, 2), 1, "cover", "12"),)
+    wide = Instance("wide", tuple(map(str, range(23))), 23, (1,) * 23, one)
     with pytest.raises(BackendError, match="at most 22 variables; this instance has 23"):
         Exhaustive().solve(wide, Limits())
     with pytest.raises(BackendError, match="one weight"):
@@ -341,7 +354,8 @@ def test_features() -> None:
         ({"objective": (1, 1)}, "2 weights for 3 variables"),
         ({"objective": (1, 1, -1)}, "found -1"),
         ({"decisions": 2}, "2 decisions and 0 definitions"),
-        ({"rows": (Row((4,), 1, "f", "o"),)}, r"row 1 \(f\)"),
+        ({"rows": (Row((4,), 1, "f", "o"),)}, r"row 1 \(f\): a literal names no variable"),
+        ({"rows": (Row((1, -1), 1, "f", "o"),)}, r"row 1 \(f\): a variable stands there twice"),
         ({"decisions": 2, "definitions": ((3,),)}, "variable 3 is not defined by earlier ones"),
         ({"start": (4,)}, "4 is no decision variable"),
     ],
@@ -360,6 +374,8 @@ def test_bad_instances(change: dict[str, object], message: str) -> None:
         (COVER.to_json().replace('"rows"', '"row"'), "key 'rows' is missing"),
         (COVER.to_json().replace('"decisions":3', '"decisions":"x"'), "wrong kind"),
         (COVER.to_json().replace('"decisions":3', '"decisions":4'), "4 decisions"),
+        (COVER.to_json().replace('"at_least":1', '"at_least":1.5'), "1.5 is no integer"),
+        (COVER.to_json().replace('"literals":[1,2]', '"literals":"12"'), "'12' is no list"),
     ],
 )
 def test_bad_files(text: str, message: str) -> None:

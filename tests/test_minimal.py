@@ -228,7 +228,7 @@ def test_diagrams_of_the_same_knot() -> None:
     assert found.best.best.is_proven and found.best.best.cable.diagram.size == diagram.size
     again = best_diagram(diagram, budget=25, seed=1)
     assert again.best.best.supports == found.best.best.supports
-    small = best_diagram(torus_knot(2, 3), budget=10**4, seed=0)
+    small = best_diagram(torus_knot(2, 3), budget=50, seed=0)
     assert small.tried == 5  # translations of the trefoil's smallest grid
 
 
@@ -272,6 +272,8 @@ def test_infeasible_requests_name_what_cannot_be_met() -> None:
         ({"forced": (3,), "forbidden": (3,)}, "p3 is both forced and forbidden"),
         ({"max_robots": 1}, "two robots hold the cable's ends"),
         ({"max_robots": 5, "openness": 0.5}, "exclude each other"),
+        ({"max_robots": 5.5}, "are counted, not 5.5"),
+        ({"forced": (2.5,)}, "are counted, not 2.5"),
     ],
 )
 def test_bad_requirements(options: dict[str, Any], message: str) -> None:
@@ -283,12 +285,20 @@ def test_bad_requests(monkeypatch: pytest.MonkeyPatch) -> None:
     cable = Cable(torus_knot(2, 3), "L+")
     with pytest.raises(RequirementError, match="p11: the cable's turning points are p1 to p10"):
         minimal_supports(cable, Requirements(forced=(11,)))
+    with pytest.raises(RequirementError, match="no cut is given"):
+        best_supports(cable.diagram, cuts=())
     with pytest.raises(RequirementError, match="p10 is an end of the cable"):
         minimal_supports(cable, Requirements(forbidden=(10,)))
     with pytest.raises(SolverError, match="no solver is named 'gurobi'"):
         minimal_supports(cable, solver="gurobi")
     with pytest.raises(SolverError, match="exhaustive search goes through"):
         minimal_supports(Cable(torus_knot(2, 11), "L+"), solver="exhaustive")
+    for limits, message in (
+        (Limits(gap=0.1), "a gap"),
+        (Limits(threads=2), "more than one thread"),
+    ):
+        with pytest.raises(SolverError, match=f"solver maxsat cannot be given {message}"):
+            minimal_supports(cable, solver="maxsat", limits=limits)
     result = minimal_supports(cable)
     with pytest.raises(SolverError, match="cannot list all sets; cp-sat and exhaustive can"):
         all_minimal(result, solver="highs")
@@ -306,6 +316,92 @@ def test_a_time_limit_says_what_is_known() -> None:
     result = minimal_supports(cable, Requirements("span"), limits=Limits(seconds=1e-3))
     assert result.solution.status in (Status.OPTIMAL, Status.FEASIBLE, Status.UNKNOWN)
     assert not result.found or result.report.is_open
+    assert result.found or result.solution.status is Status.UNKNOWN
+
+
+def test_a_set_at_hand_when_the_solver_has_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    """LCF's if it is open, else all turning points, whatever the solver failed to do."""
+    from formulations.backends.cp_sat import CpSat
+    from formulations.solution import Solution
+
+    unknown = Solution(Status.UNKNOWN, "UNKNOWN", bound=3)
+    monkeypatch.setattr(CpSat, "solve", lambda *_: unknown)
+    limits = Limits(seconds=1e-6)
+    lcf_is_open = minimal_supports(Cable(find_knot("7 Var2").diagram, "L+"), limits=limits)
+    assert lcf_is_open.supports == lcf_is_open.lcf.supports
+    assert "LCF's set" in lcf_is_open.solution.raw_status
+    everywhere = minimal_supports(Cable(find_knot("5").diagram, "L+"), limits=limits)
+    assert everywhere.robots == everywhere.baseline == 14 and not everywhere.is_proven
+    assert (everywhere.solution.status, everywhere.solution.gap) == (Status.FEASIBLE, 11 / 14)
+    impossible = Requirements(separation=4)
+    nothing = minimal_supports(Cable(find_knot("5").diagram, "L+"), impossible, limits=limits)
+    assert not nothing.found and nothing.solution.status is Status.UNKNOWN
+
+
+def test_ctrl_c_ends_a_search_with_what_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In the solver, which then stops early, or outside of it."""
+    from dataclasses import replace
+
+    from knotopt.supports import search
+
+    diagram = find_knot("7 Var2").diagram
+    original = search.minimal_supports
+
+    def early(cable: Cable, *arguments: Any, **options: Any) -> MinimalSupports:
+        result = original(cable, *arguments, **options)
+        if str(cable.cut) != "L-":
+            return result
+        stopped = replace(result.solution, status=Status.UNKNOWN, interrupted=True)
+        return replace(result, solution=stopped, found=False, supports=())
+
+    def outside(cable: Cable, *arguments: Any, **options: Any) -> MinimalSupports:
+        if str(cable.cut) == "L-":
+            raise KeyboardInterrupt
+        return original(cable, *arguments, **options)
+
+    for stopping in (early, outside):
+        monkeypatch.setattr(search, "minimal_supports", stopping)
+        found = best_supports(diagram)
+        assert found.interrupted and not found.is_proven and found.bound is None
+        assert found.best.robots == 6 and str(found.best.cable.cut) == "L+"
+        assert [outcome.status for outcome in found.outcomes][2:] == [Status.UNKNOWN] * 6
+    with pytest.raises(KeyboardInterrupt):
+        best_supports(diagram, cuts=crossing_free_cuts(diagram)[1:])
+
+
+def test_an_unfinished_widening_is_not_called_canonical(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One solve of the binary search ends without an answer."""
+    from formulations import canonical
+
+    original = canonical.attempt
+    cable = Cable(find_knot("5").diagram, "L+")
+    for options in ({}, {"max_robots": 8}):
+        whole = minimal_supports(cable, Requirements(**options))
+        for lost in range(1, 4):
+            calls = iter(range(1, 1000))
+
+            def attempt(*arguments: Any, calls: Any = calls, lost: int = lost) -> Any:
+                if next(calls) == lost:
+                    return Status.UNKNOWN, None
+                return original(*arguments)
+
+            monkeypatch.setattr(canonical, "attempt", attempt)
+            found = minimal_supports(cable, Requirements(**options))
+            assert not found.canonical or found.supports == whole.supports
+            assert not found.found or found.report.is_open
+            if options:
+                assert not found.is_proven or found.smallest_opening == whole.smallest_opening
+            monkeypatch.setattr(canonical, "attempt", original)
+
+
+@pytest.mark.parametrize("seconds", [0.02, 0.1, 0.4])
+def test_a_limited_search_keeps_what_it_has(seconds: float) -> None:
+    search = best_supports(shipped_knots()["10_123"].diagram, limits=Limits(seconds=seconds))
+    assert search.best.found and search.best.report.is_open
+    known = [outcome.robots for outcome in search.outcomes if outcome.robots is not None]
+    assert search.best.robots == min(known)
+    assert search.bound is None or search.bound <= search.best.robots
+    assert search.status in (Status.OPTIMAL, Status.FEASIBLE)
 
 
 def test_no_regions_need_no_supports() -> None:

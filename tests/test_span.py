@@ -8,7 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import cables
 
+from formulations.backends import get_backend
+from formulations.solution import Limits
 from knotopt.cable.cable import Cable
+from knotopt.catalogue.table1_grids import table1_grids
+from knotopt.supports.lcf import best_cut
 from knotopt.supports.regions import Regions
 from knotopt.supports.span import compile_span
 from knotopt.supports.threading import Threading
@@ -34,3 +38,14 @@ def test_a_set_satisfies_the_rows_exactly_if_the_taut_cable_is_open(
         )
         holds = not instance.violated(instance.complete([1, *supports, count]))
         assert holds == report.is_open, (supports, report.closures)
+
+
+def test_figures_measured_before() -> None:
+    """Loops only, strands between over and under, r = 0.25, LCF's cut of the preferred grids."""
+    found = []
+    for grid in table1_grids():
+        if grid.preferred:
+            regions = best_cut(grid.diagram).regions
+            instance = compile_span(regions, pockets=False).instance(0.25**2)
+            found.append(get_backend().solve(instance, Limits()).objective)
+    assert found == [5, 6, 6, 6, 11, 8]

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import importlib.metadata
 import re
+import threading
 import time
 from typing import Any
 
@@ -20,6 +21,7 @@ from formulations.solution import (
     Limits,
     Solution,
     Status,
+    answer_at_once,
     checked,
 )
 
@@ -40,6 +42,8 @@ class CpSat:
 
     def solve(self, instance: Instance, limits: Limits) -> Solution:
         """Minimise; Ctrl-C is caught by the solver, which returns the best solution so far."""
+        if (known := answer_at_once(instance, limits, self.name)) is not None:
+            return known
         began = time.perf_counter()
         model = _model(instance)
         terms = [(j, weight) for j, weight in enumerate(instance.objective) if weight]
@@ -81,12 +85,22 @@ class CpSat:
         )
 
     def enumerate(self, instance: Instance, limits: Limits, count: int) -> Enumeration:
-        """Every set that satisfies the rows, `count` at most."""
+        """Every set that satisfies the rows, `count` at most; Ctrl-C ends with those so far."""
+        if instance.impossible is not None:
+            return Enumeration((), complete=True)
         solver = _solver(limits)
+        solver.parameters.catch_sigint_signal = False
         solver.parameters.num_workers = 1
         solver.parameters.enumerate_all_solutions = True
         every = _All(instance.decisions, count)
-        solver.solve(_model(instance), every)
+        # With a callback the solver does not hear Ctrl-C; this thread does.
+        search = threading.Thread(target=solver.solve, args=(_model(instance), every))
+        search.start()
+        while search.is_alive():
+            try:
+                search.join(0.1)
+            except KeyboardInterrupt:
+                solver.stop_search()
         complete = solver.status_name() in ("OPTIMAL", "INFEASIBLE")
         return Enumeration(tuple(sorted(every.sets)[:count]), complete and len(every.sets) <= count)
 

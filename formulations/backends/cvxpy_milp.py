@@ -25,6 +25,7 @@ from formulations.solution import (
     MissingSolverError,
     Solution,
     Status,
+    answer_at_once,
     checked,
 )
 
@@ -36,6 +37,8 @@ class _CvxpyBackend(ABC):
 
     def solve(self, instance: Instance, limits: Limits) -> Solution:
         """Minimise; Ctrl-C ends with the best solution so far."""
+        if (known := answer_at_once(instance, limits, self.name)) is not None:
+            return known
         began = time.perf_counter()
         matrix, bound = instance.matrix
         x = cp.Variable(len(instance.variables), boolean=True)

@@ -17,8 +17,10 @@ from formulations.solution import (
     Limits,
     Solution,
     Status,
+    answer_at_once,
     checked,
 )
+from formulations.timing import Deadline
 
 MAX_FREE = 22  # decision variables that no row fixes
 _AT_ONCE = 1 << 14
@@ -35,6 +37,8 @@ class Exhaustive:
 
     def solve(self, instance: Instance, limits: Limits) -> Solution:
         """The lexicographically first of the smallest sets; Ctrl-C ends with the bound so far."""
+        if (known := answer_at_once(instance, limits, self.name)) is not None:
+            return known
         began = time.perf_counter()
         subsets = _Subsets(instance)
         build_seconds = time.perf_counter() - began
@@ -65,12 +69,16 @@ class Exhaustive:
 
     def enumerate(self, instance: Instance, limits: Limits, count: int) -> Enumeration:
         """Every set that satisfies the rows, `count` at most."""
-        del limits
+        deadline = Deadline(limits)
         subsets = _Subsets(instance)
-        every = itertools.chain.from_iterable(
-            subsets.of_size(size) for size in range(len(subsets.free) + 1)
-        )
-        sets = list(itertools.islice(every, count + 1))
+        sets: list[tuple[int, ...]] = []
+        try:
+            for size in range(len(subsets.free) + 1):
+                if deadline.passed:
+                    return Enumeration(tuple(sorted(sets)), complete=False)
+                sets += itertools.islice(subsets.of_size(size), count + 1 - len(sets))
+        except KeyboardInterrupt:
+            return Enumeration(tuple(sorted(sets[:count])), complete=False)
         return Enumeration(tuple(sorted(sets[:count])), len(sets) <= count)
 
 

@@ -57,6 +57,7 @@ def compare(
         comparison.compare(
             named.name,
             named.diagram,
+            source=named.source,
             openness=r,
             cuts=None if cut == "best" else [Cut.parse(cut, named.diagram.size)],
             solver=solver,

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
+import sys
 from pathlib import Path
-from typing import Annotated, cast, get_args
+from typing import TYPE_CHECKING, Annotated, cast, get_args
 
 import typer
 
@@ -17,11 +20,15 @@ from knotopt.cli.output import (
     TimeLimitOption,
     find_knots,
     print_json,
+    print_note,
     print_table,
     print_written,
     solver_limits,
     track,
 )
+
+if TYPE_CHECKING:
+    from knotopt.verify.certificate import Verdict
 
 
 def prove(
@@ -62,20 +69,51 @@ def prove(
         raise typer.BadParameter("expected refutation or count", param_hint="--method")
     asked = Requirements(formulation, r, threading)
     limits = solver_limits(time_limit)
-    header = f"{formulation} {asked.threading} {asked.openness} {cut} {method}"
-    with resumable_lines(out, f"{header} {' '.join(named.name for named in found)}") as lines:
-        for named in track(found[len(lines.done) :], "knots", len(found) - len(lines.done)):
-            cuts = None if cut == "best" else [Cut.parse(cut, named.diagram.size)]
-            lines.write(
-                prove_knot(
-                    named.name,
-                    named.diagram,
-                    asked,
-                    cuts=cuts,
-                    method=cast("Method | None", method),
-                    limits=limits,
+    settings = [formulation, asked.threading, str(asked.openness), cut, method]
+    grids = [[named.name, named.diagram.minus, named.diagram.plus] for named in found]
+    header = hashlib.sha256(json.dumps([settings, grids]).encode()).hexdigest()
+    proven: list[str] = []
+    try:
+        with resumable_lines(out, f"knotopt prove {header}") as lines:
+            proven += lines.done
+            if lines.done:
+                print_note(f"{len(lines.done)} certificates taken over from {out}.partial")
+            for named in track(found[len(lines.done) :], "knots", len(found) - len(lines.done)):
+                cuts = None if cut == "best" else [Cut.parse(cut, named.diagram.size)]
+                proven.append(
+                    prove_knot(
+                        named.name,
+                        named.diagram,
+                        asked,
+                        cuts=cuts,
+                        method=cast("Method | None", method),
+                        limits=limits,
+                    )
                 )
+                lines.write(proven[-1])
+    except KeyboardInterrupt:
+        if proven:
+            print(
+                f"stopped: {len(proven)} of {len(found)} certificates are in {out}.partial; "
+                "the same command goes on from there",
+                file=sys.stderr,
             )
+        raise
+    claims = [json.loads(line) for line in proven]
+    print_table(
+        ("knot", "formulation", "r", "robots", "cut", "smallest over"),
+        (
+            (
+                claim["knot"],
+                claim["formulation"],
+                claim["openness"],
+                claim["robots"],
+                claim["cut"],
+                f"{len(claim['bounds'])} cuts",
+            )
+            for claim in claims
+        ),
+    )
     print_written(out)
 
 
@@ -85,6 +123,8 @@ def check(
 ) -> None:
     """Check certificates from the definitions alone, without any solver.
 
+    The knot's name is the certificate's own word; "catalogue" says that the grid that was checked
+    is the one this package has under that name. Exit status 1 if any is rejected.
     Example: knotopt check 8_19.jsonl
     """
     from knotopt.errors import CertificateError
@@ -94,48 +134,67 @@ def check(
     for file in files:
         try:
             lines = file.read_text(encoding="utf-8").splitlines()
-        except (OSError, UnicodeDecodeError) as error:
-            raise CertificateError(f"cannot read {file}: {error}") from error
+        except OSError as error:
+            raise CertificateError(f"cannot read {file}: {error.strerror}") from error
+        except UnicodeDecodeError as error:
+            raise CertificateError(f"cannot read {file}: it is no text in UTF-8") from error
         if not lines:
             raise CertificateError(f"{file} is empty")
         certificates += [(file, number, line) for number, line in enumerate(lines, 1)]
-    verdicts = []
+    accepted, rejected = [], []
     for file, number, line in track(certificates, "certificates", len(certificates)):
         try:
-            verdicts.append(check_certificate(line))
+            verdict = check_certificate(line)
         except CertificateError as error:
-            raise CertificateError(f"{file}, line {number}: rejected: {error}") from error
-    if as_json:
-        print_json(
-            [
-                {
-                    "knot": verdict.knot,
-                    "formulation": verdict.formulation,
-                    "threading": verdict.threading,
-                    "openness": float(verdict.openness),
-                    "robots_after": verdict.robots,
-                    "cut": verdict.cut,
-                    "cuts": verdict.cuts,
-                    "every_cut": verdict.every_cut,
-                    "accepted": True,
-                }
-                for verdict in verdicts
-            ]
+            rejected.append({"file": str(file), "line": number, "reason": str(error)})
+            continue
+        accepted.append(
+            {
+                "file": str(file),
+                "line": number,
+                "knot": verdict.knot,
+                "grid": "catalogue" if _is_shipped(verdict) else "other",
+                "formulation": verdict.formulation,
+                "threading": verdict.threading,
+                "openness": float(verdict.openness),
+                "robots_after": verdict.robots,
+                "cut": verdict.cut,
+                "cuts": verdict.cuts,
+                "every_cut": verdict.every_cut,
+            }
         )
-        return
-    print_table(
-        ("knot", "formulation", "r", "robots", "cut", "smallest over", "verdict"),
-        (
-            (
-                verdict.knot,
-                verdict.formulation,
-                f"{float(verdict.openness):g}",
-                verdict.robots,
-                verdict.cut,
-                f"all {verdict.cuts} cuts" if verdict.every_cut else f"{verdict.cuts} of the cuts",
-                "accepted",
+    if as_json:
+        print_json({"accepted": accepted, "rejected": rejected})
+    else:
+        if accepted:
+            print_table(
+                ("named", "grid", "formulation", "r", "robots", "cut", "smallest over"),
+                (
+                    (
+                        verdict["knot"],
+                        verdict["grid"],
+                        verdict["formulation"],
+                        f"{verdict['openness']:g}",
+                        verdict["robots_after"],
+                        verdict["cut"],
+                        ("all " if verdict["every_cut"] else "") + f"{verdict['cuts']} cuts",
+                    )
+                    for verdict in accepted
+                ),
             )
-            for verdict in verdicts
-        ),
-    )
-    print(f"{len(verdicts)} accepted")
+        for each in rejected:
+            print(f"rejected: {each['file']}, line {each['line']}: {each['reason']}")
+        print(f"{len(accepted)} accepted, {len(rejected)} rejected")
+    if rejected:
+        raise typer.Exit(1)
+
+
+def _is_shipped(verdict: Verdict) -> bool:
+    """Whether the grid is one that this package has under the certificate's name."""
+    from knotopt.catalogue.knots import shipped_knots
+    from knotopt.catalogue.table1_grids import table1_grids
+
+    known = [grid.diagram for grid in table1_grids() if grid.knot == verdict.knot]
+    if verdict.knot in shipped_knots():
+        known.append(shipped_knots()[verdict.knot].diagram)
+    return any(set(diagram.marks) == set(verdict.grid) for diagram in known)

@@ -48,7 +48,10 @@ def solve(
     every: Annotated[
         bool, typer.Option("--all", help="List all smallest sets, not one of them.")
     ] = False,
-    count: Annotated[int, typer.Option(help="With --all: how many at most.", min=1)] = 1000,
+    count: Annotated[
+        int | None,
+        typer.Option(help="With --all: how many at most; 1000 by default.", min=1),
+    ] = None,
     diagrams: Annotated[
         int,
         typer.Option(
@@ -124,7 +127,14 @@ def solve(
         max_robots=max_robots,
     )
     limits = solver_limits(time_limit, gap, threads, seed)
+    if count is not None and not every:
+        raise typer.BadParameter("goes with --all", param_hint="--count")
     _check_options(cut, diagrams, {"--plot": plot, "--export": export, "--all": every})
+    if cut in ("best", "all") and (forbid or force):
+        raise typer.BadParameter(
+            "turning points are numbered along one cable: give --cut L+ or another",
+            param_hint="--forbid, --force",
+        )
     _check_outputs(plot, export)
     if cut == "all":
         cuts = crossing_free_cuts(named.diagram)
@@ -135,7 +145,7 @@ def solve(
     result = search.best
     sets = None
     if every and result.found:
-        sets = all_minimal(result, count=count, solver=solver, limits=limits)
+        sets = all_minimal(result, count=count or 1000, solver=solver, limits=limits)
     written = _write(named.name, result, plot, export)
     if as_json:
         content = _search_json(named.name, search, tried)
@@ -146,7 +156,7 @@ def solve(
     else:
         _show(f"{named.name} ({named.source})", search, tried)
         if sets is not None:
-            _show_sets(sets)
+            _show_sets(sets, count or 1000)
         for path in written:
             print_written(path)
     if not result.found:
@@ -191,6 +201,8 @@ def _search_json(name: str, search: CutSearch, tried: DiagramSearch | None) -> d
     cable = search.best.cable
     return supports_json(name, search.best) | {
         "proven_over_cuts": search.is_proven,
+        "status_over_cuts": str(search.status),
+        "bound_over_cuts": search.bound,
         "cuts": [_outcome_json(outcome) for outcome in search.outcomes],
         "diagrams_tried": tried.tried if tried else 1,
         "grid": [list(mark) for mark in cable.diagram.marks],
@@ -272,8 +284,11 @@ def _write(
     if plot is not None and result.found:
         from knotopt.plot.figures import save_figure, supports_figure
 
+        asked = result.requirements
         title = f"{name}, cut {result.cable.cut}: {result.robots} robots"
-        figure = supports_figure(result.lcf.regions, result.supports, title, taut=True)
+        title += f" ({asked.formulation}{_asked(asked)})"
+        taut = asked.formulation == "span"
+        figure = supports_figure(result.lcf.regions, result.supports, title, taut=taut)
         save_figure(figure, plot)
         written.append(plot)
     if export is not None:
@@ -285,11 +300,12 @@ def _write(
     return written
 
 
-def _show_sets(sets: Enumeration) -> None:
-    ending = "" if sets.complete else ", and there are more (--count)"
-    print(f"\n{len(sets.sets)} smallest sets{ending}:")
+def _show_sets(sets: Enumeration, count: int) -> None:
+    ending = "" if sets.complete else f", and maybe more (--count {count}, --time-limit)"
+    plural = "" if len(sets.sets) == 1 else "s"
+    print(f"\n{len(sets.sets)} smallest set{plural}{ending}:")
     for each in sets.sets:
-        print("  " + " ".join(f"p{k}" for k in each))
+        print("  " + (" ".join(f"p{k}" for k in each) or "no supports"))
 
 
 def _show(title: str, search: CutSearch, tried: DiagramSearch | None) -> None:
@@ -299,7 +315,7 @@ def _show(title: str, search: CutSearch, tried: DiagramSearch | None) -> None:
     result = search.best
     cable, asked, solution = result.cable, result.requirements, result.solution
     if not result.found:
-        _show_failure(title, result)
+        _show_failure(title, search)
         return
     print(draw_text(cable, result.supports))
     print(
@@ -309,19 +325,19 @@ def _show(title: str, search: CutSearch, tried: DiagramSearch | None) -> None:
         f"\n{title}, cut {cable.cut}: {result.robots} robots instead of {result.baseline} "
         f"({result.reduction_percent} % fewer)"
     )
-    print(f"supports: {format_supports(result.placed_supports)}\n")
+    print(f"supports: {format_supports(result.placed_supports) or 'none'}\n")
     closed = ", ".join(result.lcf.regions[k].name for k in result.lcf_report.closed_regions)
     milliseconds = 1e3 * (solution.build_seconds + solution.solve_seconds)
     start = {True: "accepted", False: "not accepted", None: "none given or taken"}
-    opening = "no region is threaded"
+    clearance = "no region is threaded"
     if result.smallest_opening is not None:
-        opening = f"{result.smallest_opening:.3f} grid steps"
+        clearance = f"{result.smallest_opening:.3f} grid steps: the smallest opening"
     facts = [
         ("formulation", f"{asked.formulation}, threading {asked.threading}{_asked(asked)}"),
         ("proven", _proof(search)),
-        ("bound", f"{solution.bound} robots, status {solution.status} ({solution.raw_status})"),
+        ("bound", f"{_bound(search)}, on this cut {solution.status} ({solution.raw_status})"),
         ("checked", "open by the definition" if result.report.is_open else "NOT open"),
-        ("opening", f"{opening} at the least"),
+        ("clearance", clearance),
         (
             "among equals",
             "largest smallest opening, then first" if result.canonical else "any of them",
@@ -345,7 +361,8 @@ def _show(title: str, search: CutSearch, tried: DiagramSearch | None) -> None:
         )
     print_facts(facts)
     if len(search.outcomes) > 1:
-        print_table(("cut", "robots", "bound"), map(_outcome_cells, search.outcomes))
+        cells = (_outcome_cells(outcome, result.robots) for outcome in search.outcomes)
+        print_table(("cut", "robots", "bound"), cells)
 
 
 def _asked(asked: Requirements) -> str:
@@ -364,20 +381,28 @@ def _proof(search: CutSearch) -> str:
     scope = f"over {len(search.outcomes)} cuts" if len(search.outcomes) > 1 else "on this cut"
     if result.requirements.max_robots is not None:
         return f"no larger opening {scope}" if search.is_proven else "no"
+    if search.is_proven and result.robots == 2:
+        return "the two lifting robots are enough"
     if search.is_proven:
         return f"no set of {result.robots - 1} robots is open {scope}"
-    return "no: stopped early"
+    return "no: stopped at a limit"
 
 
-def _show_failure(title: str, result: MinimalSupports) -> None:
+def _bound(search: CutSearch) -> str:
+    return "none known" if search.bound is None else f"{search.bound} robots"
+
+
+def _show_failure(title: str, search: CutSearch) -> None:
     from formulations.solution import Status
 
-    solution = result.solution
-    if solution.status is not Status.INFEASIBLE:
-        print(f"{title}, cut {result.cable.cut}: no set found ({solution.raw_status})")
+    result, cut = search.best, search.best.cable.cut
+    if search.status is not Status.INFEASIBLE:
+        print(f"{title}: no set found on {len(search.outcomes)} cuts; the solver stopped early")
         return
-    print(f"{title}, cut {result.cable.cut}: no set of supports does what is asked.")
-    print("These cannot be met together, while any one of them can be left out:")
+    where = f"cut {cut}" if len(search.outcomes) == 1 else f"any of {len(search.outcomes)} cuts"
+    print(f"{title}: no set of supports does what is asked on {where}.")
+    smallest = ", while any one of them can be left out" if result.conflict_is_smallest else ""
+    print(f"On cut {cut} these cannot be met together{smallest}:")
     for family, origin in result.conflict:
         print(f"  {family}: {origin}")
 
@@ -388,14 +413,16 @@ def _show_cuts(name: str, results: list[MinimalSupports], *, as_json: bool) -> N
     if as_json:
         print_json([supports_json(name, result) for result in results])
         return
+    asked = results[0].requirements
+    print(f"{name}: {asked.formulation}, threading {asked.threading}{_asked(asked)}")
     print_table(
-        ("cut", "robots", "bound", "proven", "LCF", "open", "opening", "supports"),
+        ("cut", "robots", "bound", "status", "LCF", "open", "clearance", "supports"),
         (
             (
                 result.cable.cut,
                 result.robots if result.found else "none",
                 "-" if result.solution.bound is None else result.solution.bound,
-                result.is_proven,
+                result.solution.status,
                 result.lcf.robots,
                 result.lcf_report.is_open,
                 "-" if result.smallest_opening is None else f"{result.smallest_opening:.3f}",
@@ -415,8 +442,10 @@ def _outcome_json(outcome: CutOutcome) -> dict[str, Any]:
     }
 
 
-def _outcome_cells(outcome: CutOutcome) -> tuple[str, str, str]:
-    robots = "not fewer" if outcome.robots is None else str(outcome.robots)
+def _outcome_cells(outcome: CutOutcome, best: int) -> tuple[str, str, str]:
+    robots = "unknown" if outcome.robots is None else str(outcome.robots)
     if outcome.status == "infeasible":
         robots = "none"
+    elif outcome.robots is None and outcome.bound is not None and outcome.bound >= best:
+        robots = "not fewer"
     return str(outcome.cut), robots, "-" if outcome.bound is None else str(outcome.bound)

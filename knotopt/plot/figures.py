@@ -89,10 +89,11 @@ def minimal_figure(results: Sequence[MinimalSupports], title: str) -> Figure:
         draw_cable(axes, cable)
         handles = [
             *draw_robots(axes, cable, result.supports),
-            *draw_spans(axes, cable, result.supports),
             *shades,
         ]
         kind = result.requirements.formulation
+        if kind == "span":
+            handles += draw_spans(axes, cable, result.supports)
         axes.set_title(f"{kind}, cut {cable.cut}: {result.robots} robots", fontsize=9)
     figure.suptitle(title, fontsize=9, parse_math=False)
     figure.legend(handles=handles, loc="outside lower center", ncols=2, **_LEGEND)

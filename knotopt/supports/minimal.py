@@ -47,6 +47,8 @@ class MinimalSupports(SupportSet):
     lcf : LcfResult
         LCF on the same cable, which gave the regions and the first guess.
     requirements : Requirements
+    program : Program
+        The formulation's program of this cable, for any openness.
     instance : Instance
         The 0-1 program that was solved; its decisions are the turning points.
     solution : Solution
@@ -57,19 +59,24 @@ class MinimalSupports(SupportSet):
         1-based on the path, without p_1 and p_n.
     canonical : bool
         Whether, among all sets as small, this one is known to have the largest smallest opening
-        and to be the lexicographically first of those.
+        (openings of 1 grid step and more count as 1) and to be the lexicographically first of
+        those.
     conflict : tuple of (family, origin)
-        If there is no such set: a smallest collection of what cannot be met together.
+        If there is no such set: what cannot be met together.
+    conflict_is_smallest : bool
+        Whether each of these can be left out to make the others possible.
     """
 
     lcf: LcfResult
     requirements: Requirements
+    program: Program
     instance: Instance
     solution: Solution
     found: bool
     supports: tuple[int, ...]
     canonical: bool
     conflict: tuple[Group, ...] = ()
+    conflict_is_smallest: bool = False
 
     @property
     def cable(self) -> Cable:
@@ -119,6 +126,7 @@ def minimal_supports(
     solver: str = DEFAULT,
     limits: Limits | None = None,
     canonical: bool = True,
+    explain: bool = True,
     better_than: int | None = None,
 ) -> MinimalSupports:
     """The smallest set of supports that meets the requirements, proven unless a limit strikes.
@@ -131,12 +139,16 @@ def minimal_supports(
     solver : str
         "cp-sat", "highs", "scip", "maxsat" or "exhaustive".
     limits : Limits, optional
-        Time, gap, threads, seed; the time is shared by all solves of this call.
+        Time, gap, threads, seed; the time is shared by all solves of this call. It is not looked at
+        while the program is compiled.
     canonical : bool
         Whether to go on to the one set that has the largest smallest opening and is first among
         those.
+    explain : bool
+        Whether to look for a smallest conflict if there is no set.
     better_than : int, optional
-        Only sets of fewer robots are of interest; without one the status is INFEASIBLE.
+        Only sets of fewer robots are of interest; without one the status is INFEASIBLE, and the
+        bound says no more than `better_than`. Not with `max_robots`.
 
     Raises
     ------
@@ -158,38 +170,49 @@ def minimal_supports(
     limits = limits or Limits()
     deadline = Deadline(limits)
     backend = find_backend(solver)
+    for feature, value in ((Feature.GAP, limits.gap > 0), (Feature.THREADS, limits.threads > 1)):
+        if value and feature not in backend.features:
+            raise SolverError(f"solver {solver} cannot be given {feature.phrase}")
     seeded = lcf(cable)
     program = compile_program(seeded, asked)
     try:
         if asked.max_robots is not None:
-            return _widest(program, seeded, asked, backend, deadline)
-        level = float(asked.openness**2)
-        instance = program.instance(level)
-        if better_than is None:
-            solution = backend.solve(instance, limits)
-        elif (packed := instance.packing_bound()) >= better_than:
-            words = f"{packed} robots at least, by rows that share no point"
-            solution = Solution(Status.INFEASIBLE, words, bound=packed)
+            result = _widest(program, seeded, asked, backend, deadline)
         else:
-            instance = instance.with_rows([instance.at_most(better_than - 1)])
-            solution = backend.solve(instance, limits)
-        chosen, sure = solution.chosen, False
-        if solution.status is Status.OPTIMAL and chosen is not None and canonical:
-            size = len(chosen)
-            wide = widest(program, backend, deadline.left(), level, size)
-            if wide is not None:
-                level, chosen = wide
-                at_level = program.instance(level)
-                chosen, sure = lexicographically_first(
-                    at_level, backend, deadline.left(), size, chosen
-                )
-        result = _result(seeded, asked, instance, solution, chosen, canonical=sure)
-        if solution.status is Status.INFEASIBLE and better_than is None:
-            found = conflict(instance, backend, deadline.left())
-            result = replace(result, conflict=found)
+            instance = program.instance(float(asked.openness**2))
+            solution = _solve(instance, backend, deadline, better_than)
+            result = _result(seeded, asked, program, instance, solution, solution.chosen)
+            if canonical and result.found:
+                result = canonical_supports(result, solver=solver, limits=deadline.left())
+        if explain and result.solution.status is Status.INFEASIBLE:
+            groups, sure = conflict(result.instance, backend, deadline.left())
+            result = replace(result, conflict=groups, conflict_is_smallest=sure)
     except BackendError as error:
         raise SolverError(str(error)) from error
     return result
+
+
+def canonical_supports(
+    result: MinimalSupports, *, solver: str = DEFAULT, limits: Limits | None = None
+) -> MinimalSupports:
+    """The canonical one among the sets as small as a proven result's; others stay as they are.
+
+    If a limit strikes, the set may be any as small, and `canonical` says that it is not known to be
+    the one.
+    """
+    asked = result.requirements
+    if result.solution.status is not Status.OPTIMAL or asked.max_robots is not None:
+        return result
+    deadline = Deadline(limits or Limits())
+    backend = find_backend(solver)
+    level, size = float(asked.openness**2), result.robots
+    wide, sure = widest(result.program, backend, deadline.left(), level, size)
+    if wide is None:
+        return result
+    chosen, is_first = lexicographically_first(
+        result.program.instance(wide[0]), backend, deadline.left(), size, wide[1]
+    )
+    return replace(result, supports=chosen[1:-1], canonical=sure and is_first)
 
 
 def all_minimal(
@@ -209,7 +232,10 @@ def all_minimal(
         The result is no proven optimum.
     """
     if not result.is_proven or not result.found or result.requirements.max_robots is not None:
-        raise RequirementError("all smallest sets can be listed only once the smallest is proven")
+        raise RequirementError(
+            "all smallest sets can be listed only once the smallest is proven, "
+            "and not with a largest number of robots"
+        )
     backend = find_backend(solver)
     if Feature.ENUMERATION not in backend.features:
         raise SolverError(f"solver {solver} cannot list all sets; cp-sat and exhaustive can")
@@ -262,6 +288,40 @@ def defined_regions(regions: Regions) -> list[DefinedRegion]:
     return found
 
 
+def _at_hand(solution: Solution, instance: Instance) -> Solution:
+    """If the solver stopped without a set: LCF's or all turning points, if that does."""
+    if solution.status is not Status.UNKNOWN:
+        return solution
+    every = tuple(range(1, instance.decisions + 1))
+    for chosen, words in ((instance.start or (), "LCF's set"), (every, "all turning points")):
+        if not instance.violated(instance.complete(chosen)):
+            return replace(
+                solution,
+                status=Status.FEASIBLE,
+                raw_status=f"{solution.raw_status}; {words}",
+                chosen=chosen,
+                objective=len(chosen),
+            )
+    return solution
+
+
+def _solve(
+    instance: Instance, backend: Backend, deadline: Deadline, better_than: int | None
+) -> Solution:
+    """The smallest set, or the smallest of fewer than `better_than` robots."""
+    if better_than is None:
+        return _at_hand(backend.solve(instance, deadline.left()), instance)
+    packed = instance.packing_bound()
+    if packed >= better_than:
+        words = f"{packed} robots at least, by rows that share no point"
+        return Solution(Status.INFEASIBLE, words, bound=packed)
+    instance = instance.with_rows([instance.at_most(better_than - 1)])
+    solution = _at_hand(backend.solve(instance, deadline.left()), instance)
+    # What is proven of the sets asked for holds for all sets up to their size only.
+    bound = None if solution.bound is None else min(solution.bound, better_than)
+    return replace(solution, bound=bound)
+
+
 def _widest(
     program: Program,
     seeded: LcfResult,
@@ -271,35 +331,32 @@ def _widest(
 ) -> MinimalSupports:
     """At most so many robots: maximise the smallest opening, then use as few as that allows."""
     assert asked.max_robots is not None
-    instance = program.instance(SMALLEST)
-    wide = widest(program, backend, deadline.left(), SMALLEST, asked.max_robots)
-    sure = False
-    if wide is None:
-        solution = backend.solve(instance, deadline.left())
-        result = _result(seeded, asked, instance, solution, solution.chosen, canonical=False)
-        if solution.status is Status.INFEASIBLE:
-            found = conflict(instance, backend, deadline.left())
-            result = replace(result, conflict=found)
-        return result
-    level, chosen = wide
+    wide, sure = widest(program, backend, deadline.left(), SMALLEST, asked.max_robots)
+    level, chosen = (SMALLEST, None) if wide is None else wide
     instance = program.instance(level)
     solution = backend.solve(instance, deadline.left())
     if solution.status is Status.OPTIMAL and solution.chosen is not None:
-        chosen, sure = lexicographically_first(
+        chosen, is_first = lexicographically_first(
             instance, backend, deadline.left(), len(solution.chosen), solution.chosen
         )
-    return _result(seeded, asked, instance, solution, chosen, canonical=sure)
+        sure = sure and is_first
+    elif chosen is not None:
+        sure = False
+    return _result(seeded, asked, program, instance, solution, chosen, canonical=sure)
 
 
 def _result(
     seeded: LcfResult,
     asked: Requirements,
+    program: Program,
     instance: Instance,
     solution: Solution,
     chosen: tuple[int, ...] | None,
     *,
-    canonical: bool,
+    canonical: bool = False,
 ) -> MinimalSupports:
     found = chosen is not None
     supports = chosen[1:-1] if chosen is not None else ()
-    return MinimalSupports(seeded, asked, instance, solution, found, supports, canonical)
+    return MinimalSupports(
+        seeded, asked, program, instance, solution, found, supports, found and canonical
+    )

@@ -105,6 +105,9 @@ class Requirements:
         }
         for name, value in fields.items():
             object.__setattr__(self, name, value)
+        for number in (*self.forced, *self.forbidden, *([max_robots] if max_robots else [])):
+            if not isinstance(number, int) or isinstance(number, bool):
+                raise RequirementError(f"turning points and robots are counted, not {number!r}")
         for point in self.forced:
             if point in self.forbidden:
                 raise RequirementError(f"p{point} is both forced and forbidden")

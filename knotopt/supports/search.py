@@ -21,8 +21,8 @@ from knotopt.diagram.moves import (
     commute_rows,
     translate,
 )
-from knotopt.errors import MoveError
-from knotopt.supports.minimal import MinimalSupports, minimal_supports
+from knotopt.errors import MoveError, RequirementError
+from knotopt.supports.minimal import MinimalSupports, canonical_supports, minimal_supports
 from knotopt.supports.requirements import Requirements
 
 
@@ -66,12 +66,31 @@ class CutSearch:
     interrupted: bool = False
 
     @property
+    def status(self) -> Status:
+        """What is known over all cuts."""
+        if self.is_proven:
+            return Status.OPTIMAL
+        if self.best.found:
+            return Status.FEASIBLE
+        if all(outcome.status is Status.INFEASIBLE for outcome in self.outcomes):
+            return Status.INFEASIBLE
+        return Status.UNKNOWN
+
+    @property
+    def bound(self) -> int | None:
+        """Proven lower bound of the robots over all cuts; None if some cut has none."""
+        bounds = [o.bound for o in self.outcomes if o.status is not Status.INFEASIBLE]
+        known = [bound for bound in bounds if bound is not None]
+        return min(known) if known and len(known) == len(bounds) else None
+
+    @property
     def is_proven(self) -> bool:
         """Whether no cut has a smaller set."""
         if not self.best.is_proven:
             return False
         if self.best.requirements.max_robots is not None:
-            return all(outcome.status is not Status.UNKNOWN for outcome in self.outcomes)
+            done = (Status.OPTIMAL, Status.INFEASIBLE)
+            return all(outcome.status in done for outcome in self.outcomes)
         return all(
             outcome.status is Status.INFEASIBLE
             or (outcome.bound is not None and outcome.bound >= self.best.robots)
@@ -141,14 +160,23 @@ def best_supports(
     widest = asked.max_robots is not None
     incumbent, interrupted = None if widest else better_than, False
     for cut in chosen:
-        result = minimal_supports(
-            Cable(diagram, cut),
-            asked,
-            solver=solver,
-            limits=deadline.left(),
-            canonical=widest,
-            better_than=incumbent,
-        )
+        if best is not None and deadline.passed:
+            break
+        try:
+            result = minimal_supports(
+                Cable(diagram, cut),
+                asked,
+                solver=solver,
+                limits=deadline.left(),
+                canonical=False,
+                explain=False,
+                better_than=incumbent,
+            )
+        except KeyboardInterrupt:  # outside the solver, which ends by itself
+            if best is None:
+                raise
+            interrupted = True
+            break
         outcomes.append(_outcome(result, incumbent))
         if result.found and not widest:
             incumbent = result.robots
@@ -160,11 +188,13 @@ def best_supports(
         if interrupted:
             break
     outcomes += [CutOutcome(cut, None, None, Status.UNKNOWN) for cut in chosen[len(outcomes) :]]
-    assert best is not None  # every diagram has crossing-free cuts
-    # Once more for the one canonical set, or for the reason why there is none.
-    again = canonical if best.found else better_than is None
-    if again and not widest and not interrupted:
-        best = minimal_supports(best.cable, asked, solver=solver, limits=deadline.left())
+    if best is None:
+        raise RequirementError("no cut is given")
+    if not (interrupted or deadline.passed):
+        if best.found and canonical:
+            best = canonical_supports(best, solver=solver, limits=deadline.left())
+        elif best.solution.status is Status.INFEASIBLE and better_than is None:
+            best = minimal_supports(best.cable, asked, solver=solver, limits=deadline.left())
     return CutSearch(best, tuple(outcomes), interrupted)
 
 
@@ -266,11 +296,15 @@ def _outcome(result: MinimalSupports, incumbent: int | None) -> CutOutcome:
     if status is Status.INFEASIBLE and incumbent is not None:
         status, bound = Status.UNKNOWN, max(incumbent, bound or 0)
     robots = result.robots if result.found else None
+    if result.requirements.max_robots is not None and result.found and not result.canonical:
+        status = Status.FEASIBLE  # a larger opening is not excluded
     return CutOutcome(result.cable.cut, robots, bound, status)
 
 
 def is_better(result: MinimalSupports, other: MinimalSupports) -> bool:
     """Fewer robots; with a largest number of robots: a larger smallest opening."""
+    if not (result.found or other.found):  # of two failures the undecided one
+        return result.solution.status is not Status.INFEASIBLE is other.solution.status
     if not (result.found and other.found):
         return result.found
     if result.requirements.max_robots is None:
