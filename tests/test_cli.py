@@ -6,6 +6,8 @@ import csv
 import importlib.metadata
 import json
 import os
+import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -456,3 +458,13 @@ def test_prove_goes_on_where_it_stopped(
     assert proven == ["3_1", "4_1", "5_1", "5_1"]
     assert file.read_text() == whole.read_text()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.jsonl", "whole.jsonl"]
+
+
+def test_the_readme_shows_what_is_printed(cli: Cli) -> None:
+    """Each `$ knotopt ...` in README.md, up to the dots."""
+    readme = (Path(__file__).parents[1] / "README.md").read_text()
+    blocks = re.findall(r"```console\n\$ knotopt ([^\n]*)\n(.*?)```", readme, re.DOTALL)
+    assert len(blocks) == 3
+    for command, shown in blocks:
+        _, out, _ = cli(*shlex.split(command))
+        assert out.startswith(shown.removesuffix("...\n")), command

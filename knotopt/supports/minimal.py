@@ -250,7 +250,13 @@ def all_minimal(
 
 
 def compile_program(seeded: LcfResult, requirements: Requirements) -> Program:
-    """The formulation's program for LCF's cable, regions and first guess."""
+    """The formulation's program for LCF's cable, regions and first guess.
+
+    Raises
+    ------
+    RequirementError
+        A point that the cable does not have, or a region too large for `span`.
+    """
     regions = seeded.regions
     team = compile_team(regions, requirements)
     start = (1, *seeded.supports, len(seeded.cable.path))
@@ -259,7 +265,13 @@ def compile_program(seeded: LcfResult, requirements: Requirements) -> Program:
 
 
 def find_backend(solver: str) -> Backend:
-    """The solver of that name; errors are this package's."""
+    """The solver of that name.
+
+    Raises
+    ------
+    SolverError, MissingExtraError
+        There is none, or it is not installed.
+    """
     try:
         return get_backend(solver)
     except MissingSolverError as error:

@@ -143,6 +143,10 @@ def best_supports(
     progress : callable, optional
         Told after each cut how many are done.
 
+    Raises
+    ------
+    As `minimal_supports`; RequirementError also if no cut is given.
+
     Examples
     --------
     >>> from knotopt.catalogue.lookup import find_knot
@@ -233,7 +237,7 @@ def best_diagram(
     """The best set found over diagrams that translations and commutations give.
 
     A random walk from the given diagram; grids stay of the same size. The number found is an upper
-    bound for the knot: other diagrams may do better.
+    bound for the knot: other diagrams may do better. Ctrl-C ends the walk with what is known.
 
     Parameters
     ----------
@@ -246,20 +250,24 @@ def best_diagram(
     deadline = Deadline(limits or Limits())
     best = search = best_supports(diagram, requirements, solver=solver, limits=deadline.left())
     tried = 0
-    for tried, candidate in enumerate(_walk(diagram, budget, seed), 1):
-        if tried > 1:
-            search = best_supports(
-                candidate,
-                requirements,
-                solver=solver,
-                limits=deadline.left(),
-                better_than=best.best.robots if best.best.found else None,
-            )
+    for candidate in _walk(diagram, budget, seed):
+        if tried > 0:
+            try:
+                search = best_supports(
+                    candidate,
+                    requirements,
+                    solver=solver,
+                    limits=deadline.left(),
+                    better_than=best.best.robots if best.best.found else None,
+                )
+            except KeyboardInterrupt:  # with nothing known of this diagram
+                break
             if is_better(search.best, best.best):
                 best = search
+        tried += 1
         if progress is not None:
             progress(tried)
-        if search.interrupted:
+        if search.interrupted or deadline.passed:
             break
     return DiagramSearch(best, tried, seed)
 
