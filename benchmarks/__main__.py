@@ -59,7 +59,11 @@ def run_benchmark(benchmark: Benchmark, out: Path, *, smoke: bool = False) -> Pa
     """Measure every case not yet in the partial file; return the path of the complete one."""
     final = out / f"{benchmark.name}.jsonl"
     header = {"benchmark": benchmark.name, "smoke": smoke, "machine": machine_facts()}
-    with resumable_lines(final, json.dumps(header), keep_header=True) as lines:
+
+    def finish(lines: list[str]) -> str:
+        return "".join(f"{line}\n" for line in (json.dumps(header), *lines))
+
+    with resumable_lines(final, json.dumps(header), finish) as lines:
         done = {json.dumps(json.loads(line)["case"]) for line in lines.done}
         for case in track(list(benchmark.cases(smoke)), benchmark.name):
             if json.dumps(case) not in done:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import time
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, fields
@@ -235,6 +236,11 @@ def to_latex(rows: list[ComparisonRow]) -> str:
             "",
         ]
     )
+
+
+def from_json(line: str) -> ComparisonRow:
+    """The row that `json.dumps(asdict(row))` wrote."""
+    return ComparisonRow(**json.loads(line))
 
 
 FORMATS: dict[str, Any] = {".csv": to_csv, ".md": to_markdown, ".tex": to_latex}

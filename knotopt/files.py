@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 import uuid
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TextIO
@@ -60,12 +60,14 @@ class Lines:
 
 
 @contextmanager
-def resumable_lines(path: Path, header: str, *, keep_header: bool = False) -> Iterator[Lines]:
+def resumable_lines(
+    path: Path, header: str, finish: Callable[[list[str]], str] | None = None
+) -> Iterator[Lines]:
     """Collect the lines of a file, which lands under its name when all are there.
 
     Until then, and if anything fails, they are in `PATH.partial` after a line with the header. A
-    later call with the same header finds them in `done`; a torn last line is dropped. The header
-    stays in the file if `keep_header` says so.
+    later call with the same header finds them in `done`; a torn last line is dropped. `finish`
+    makes the file's text of the lines; by default it is the lines.
 
     Raises
     ------
@@ -94,6 +96,6 @@ def resumable_lines(path: Path, header: str, *, keep_header: bool = False) -> It
         if partial.read_text(encoding="utf-8") == f"{header}\n":
             partial.unlink()  # nothing to go on from
         raise
-    whole = partial.read_text(encoding="utf-8")
-    write_atomically(path, whole if keep_header else whole.split("\n", 1)[1])
+    lines = partial.read_text(encoding="utf-8").splitlines()[1:]
+    write_atomically(path, finish(lines) if finish else "".join(f"{line}\n" for line in lines))
     partial.unlink()

@@ -468,3 +468,28 @@ def test_the_readme_shows_what_is_printed(cli: Cli) -> None:
     for command, shown in blocks:
         _, out, _ = cli(*shlex.split(command))
         assert out.startswith(shown.removesuffix("...\n")), command
+
+
+def test_compare_goes_on_where_it_stopped(
+    cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from knotopt import comparison
+
+    original = comparison.compare
+    compared: list[str] = []
+
+    def interrupted(name: str, *arguments: Any, **options: Any) -> comparison.ComparisonRow:
+        compared.append(name)
+        if compared == ["3_1", "4_1"]:
+            raise KeyboardInterrupt
+        return original(name, *arguments, **options)
+
+    monkeypatch.setattr(comparison, "compare", interrupted)
+    command = ("compare", "3", "4", "--out", tmp_path / "a.csv")
+    assert cli(*command)[0] == 130
+    assert [path.name for path in tmp_path.iterdir()] == ["a.csv.partial"]
+    status, out, _ = cli(*command)
+    assert status == 0 and "mean of 2" in out and compared == ["3_1", "4_1", "4_1"]
+    assert [path.name for path in tmp_path.iterdir()] == ["a.csv"]
+    rows = list(csv.DictReader((tmp_path / "a.csv").read_text().splitlines()))
+    assert [row["knot"] for row in rows] == ["3_1", "4_1"]

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -20,9 +21,14 @@ from knotopt.cli.output import (
     print_note,
     print_table,
     print_written,
+    run_header,
     solver_limits,
     track,
 )
+
+if TYPE_CHECKING:
+    from knotopt.catalogue.lookup import NamedDiagram
+    from knotopt.comparison import ComparisonRow
 
 
 def compare(
@@ -42,19 +48,21 @@ def compare(
 ) -> None:
     """Compare baseline, LCF, LCF layered, opening and span: robots, open or not, proven or not.
 
+    With --out, a run that is interrupted goes on where it stopped.
     Example: knotopt compare 3 4 5 8_19 'T(3,5)' --out comparison.tex
     """
     from knotopt import comparison
     from knotopt.cable.cut import Cut
     from knotopt.errors import OutputError
-    from knotopt.files import write_atomically
+    from knotopt.files import resumable_lines
 
     found = find_knots(knots, catalogue=catalogue)
     if out is not None and out.suffix.lower() not in comparison.FORMATS:
         raise OutputError(f"{out}: tables are written as {', '.join(comparison.FORMATS)}")
     limits = solver_limits(time_limit)
-    rows = [
-        comparison.compare(
+
+    def compare_one(named: NamedDiagram) -> ComparisonRow:
+        return comparison.compare(
             named.name,
             named.diagram,
             source=named.source,
@@ -63,10 +71,19 @@ def compare(
             solver=solver,
             limits=limits,
         )
-        for named in track(found, "knots", len(found))
-    ]
-    if out is not None:
-        write_atomically(out, comparison.FORMATS[out.suffix.lower()](rows))
+
+    if out is None:
+        rows = [compare_one(named) for named in track(found, "knots", len(found))]
+    else:
+        write = comparison.FORMATS[out.suffix.lower()]
+        header = run_header("compare", [cut, r, solver, time_limit], found)
+        with resumable_lines(
+            out, header, lambda lines: write([comparison.from_json(line) for line in lines])
+        ) as lines:
+            rows = [comparison.from_json(line) for line in lines.done]
+            for named in track(found[len(rows) :], "knots", len(found) - len(rows)):
+                rows.append(compare_one(named))
+                lines.write(json.dumps(asdict(rows[-1])))
     if as_json:
         print_json([asdict(row) for row in rows])
         return

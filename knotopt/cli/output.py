@@ -118,6 +118,15 @@ def find_knots(names: list[str] | None, *, catalogue: bool) -> list[NamedDiagram
     return [find_knot(name) for name in (shipped_knots() if catalogue else names or ())]
 
 
+def run_header(command: str, settings: list[Any], knots: list[NamedDiagram]) -> str:
+    """What tells one long run from another: command, options, grids."""
+    import hashlib
+
+    grids = [[named.name, named.diagram.minus, named.diagram.plus] for named in knots]
+    run = json.dumps([settings, grids])
+    return f"knotopt {command} {hashlib.sha256(run.encode()).hexdigest()}"
+
+
 def solver_limits(
     seconds: float | None, gap: float = 0.0, threads: int = 1, seed: int = 0
 ) -> Limits:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import sys
 from pathlib import Path
@@ -23,6 +22,7 @@ from knotopt.cli.output import (
     print_note,
     print_table,
     print_written,
+    run_header,
     solver_limits,
     track,
 )
@@ -70,11 +70,10 @@ def prove(
     asked = Requirements(formulation, r, threading)
     limits = solver_limits(time_limit)
     settings = [formulation, asked.threading, str(asked.openness), cut, method]
-    grids = [[named.name, named.diagram.minus, named.diagram.plus] for named in found]
-    header = hashlib.sha256(json.dumps([settings, grids]).encode()).hexdigest()
+    header = run_header("prove", settings, found)
     proven: list[str] = []
     try:
-        with resumable_lines(out, f"knotopt prove {header}") as lines:
+        with resumable_lines(out, header) as lines:
             proven += lines.done
             if lines.done:
                 print_note(f"{len(lines.done)} certificates taken over from {out}.partial")
