@@ -15,8 +15,6 @@ only where the leader enters at the region's own last crossing may the tether en
 pocket may have a side without robots: then one span carries both its crossings, and the three
 spans are judged together. For a loop this is the definition by winding numbers of the whole
 polygon, as one corner moves.
-
-Quantities at a moved crossing are exact: c' = (X, Y) / D in integers.
 """
 
 from __future__ import annotations
@@ -32,13 +30,8 @@ from formulations.span import Conflict, SpanProgram
 from formulations.team import Team
 from knotopt.cable.cable import BoolArray, Cable, IntArray
 from knotopt.errors import RequirementError
-from knotopt.supports.opening import (
-    FloatArray,
-    cross,
-    crossings_of_ray,
-    path_turns,
-    stretch_margins,
-)
+from knotopt.supports.moved import Chords, between, distance_to, meet, ray_to
+from knotopt.supports.opening import FloatArray, path_turns, stretch_margins
 from knotopt.supports.regions import Regions
 from knotopt.supports.threading import Threading, threading_points
 
@@ -56,18 +49,6 @@ class _Ends:
     spans: IntArray
     anchor: IntArray
     visit: int
-
-
-@dataclass(frozen=True, eq=False)
-class _Chords:
-    """Straight spans as they lie when the leader threads: start, end (S, 2).
-
-    at_end (S,): whether the chord is a tether that ends where the strand crosses itself to enter.
-    """
-
-    start: IntArray
-    end: IntArray
-    at_end: BoolArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -233,65 +214,12 @@ def _forbid_within(
             np.minimum.at(forbidden, (u + 1, w + 1), margins)
 
 
-def _laid(cable: Cable, spans: IntArray, thread: _Thread, closes: int) -> _Chords:
+def _laid(cable: Cable, spans: IntArray, thread: _Thread, closes: int) -> Chords:
     """The spans as chords when the leader threads the region, closed at time `closes`."""
     start, end = cable.points[spans[:, 0]], cable.points[spans[:, 1]]
     tether = (cable.times[spans[:, 1]] > thread.entry) & (thread.entry >= closes)
     chord_end = np.where(tether[:, None], cable.cells[thread.entry], end)
-    return _Chords(start, chord_end, tether & (thread.entry == closes))
-
-
-@dataclass(frozen=True, eq=False)
-class _Moved:
-    """Crossings c' = xy / d of chords of one list with chords of another; d > 0.
-
-    meets: whether they cross; along: numerator of c's place on the first chord (over d).
-    """
-
-    xy: IntArray
-    d: IntArray
-    meets: BoolArray
-    along: IntArray
-
-
-def _meet(first: _Chords, second: _Chords) -> _Moved:
-    """All crossings, shape (first, second): inside both chords, or at an end that counts."""
-    a, u = first.start[:, None], (first.end - first.start)[:, None]
-    c, v = second.start[None], (second.end - second.start)[None]
-    d = cross(u, v)
-    s, t = cross(c - a, v), cross(c - a, u)
-    s, t, d = s * np.sign(d), t * np.sign(d), np.abs(d)
-    meets = (d > 0) & (s > 0) & (t > 0)
-    meets &= (s < d) | (first.at_end[:, None] & (s == d))
-    meets &= (t < d) | (second.at_end[None] & (t == d))
-    d = np.where(meets, d, 1)
-    return _Moved(a * d[..., None] + u * s[..., None], d, meets, s)
-
-
-def _ray_to(anchor: IntArray, moved: _Moved, q: IntArray) -> IntArray:
-    """Signed crossings of the segments anchor -> c' with the ray from q to the right."""
-    d = moved.d[..., None]
-    return crossings_of_ray(anchor * d, moved.xy, q * d)
-
-
-def _distance_to(anchor: IntArray, moved: _Moved, q: IntArray) -> FloatArray:
-    """Squared distances of q from the segments anchor - c', exact up to one rounding."""
-    along = moved.xy - anchor * moved.d[..., None]  # times d
-    offset = q - anchor
-    beyond = q * moved.d[..., None] - moved.xy  # times d
-    length = (along * along).sum(axis=-1)  # times d^2
-    dot = (along * offset).sum(axis=-1)  # times d
-    side = cross(along, offset)  # times d
-    found: FloatArray = np.where(
-        dot <= 0,
-        (offset * offset).sum(axis=-1),
-        np.where(
-            dot * moved.d >= length,
-            (beyond * beyond).sum(axis=-1) / (moved.d * moved.d),
-            side * side / np.maximum(length, 1),
-        ),
-    )
-    return found
+    return Chords(start, chord_end, tether & (thread.entry == closes))
 
 
 def _corner(
@@ -306,16 +234,16 @@ def _corner(
     margins = _no_margins(cable, len(first.spans), len(second.spans))
     for thread in threads:
         q = thread.q
-        moved = _meet(
+        moved = meet(
             _laid(cable, first.spans, thread, closes), _laid(cable, second.spans, thread, closes)
         )
         wound = (
             path_turns(cable, times[second.anchor], second.visit, thread.index)[None]
             + path_turns(cable, first.visit, times[first.anchor], thread.index)[:, None]
-            + _ray_to(before, moved, q)
-            - _ray_to(after, moved, q)
+            + ray_to(before, moved, q)
+            - ray_to(after, moved, q)
         )
-        clear = np.minimum(_distance_to(before, moved, q), _distance_to(after, moved, q))
+        clear = np.minimum(distance_to(before, moved, q), distance_to(after, moved, q))
         margins = np.minimum(margins, np.where(moved.meets & (wound == 0), clear, 0.0))
     margins[_overlap(first.spans[:, None], second.spans[None])] = np.inf
     return Conflict(first.spans + 1, second.spans + 1, None, margins, origin)
@@ -351,19 +279,19 @@ def _side(
     for thread in threads:
         q, turns = thread.q, partial(path_turns, cable, q=thread.index)
         chords = _laid(cable, spans, thread, closes)
-        moved0 = _meet(chords, _laid(cable, first.spans, thread, closes))
-        moved1 = _meet(chords, _laid(cable, second.spans, thread, closes))
-        middle, shortest = _between(chords, moved0, moved1, q)
+        moved0 = meet(chords, _laid(cable, first.spans, thread, closes))
+        moved1 = meet(chords, _laid(cable, second.spans, thread, closes))
+        middle, shortest = between(chords, moved0, moved1, q)
         wound = (
             turns(times[first.anchor], first.visit)[None, :, None]
             + turns(*corners)
             + turns(second.visit, times[second.anchor])[None, None]
-            + _ray_to(after, moved1, q)[:, None]
+            + ray_to(after, moved1, q)[:, None]
             + middle
-            - _ray_to(before, moved0, q)[:, :, None]
+            - ray_to(before, moved0, q)[:, :, None]
         )
         clear = np.minimum(
-            _distance_to(before, moved0, q)[:, :, None], _distance_to(after, moved1, q)[:, None]
+            distance_to(before, moved0, q)[:, :, None], distance_to(after, moved1, q)[:, None]
         )
         meets = moved0.meets[:, :, None] & moved1.meets[:, None]
         clear = np.minimum(clear, shortest)
@@ -373,35 +301,6 @@ def _side(
     apart = apart | _overlap(spans[:, None], second.spans[None])[:, None]
     margins[apart] = np.inf
     return Conflict(first.spans + 1, second.spans + 1, spans + 1, margins, origin)
-
-
-def _between(
-    chords: _Chords, moved0: _Moved, moved1: _Moved, q: IntArray
-) -> tuple[IntArray, FloatArray]:
-    """The edge from the second moved crossing to the first, both on one chord.
-
-    Returns
-    -------
-    signed crossings with the ray from q to the right, and the squared distance of q from the
-    chord's line where its nearest point lies between the crossings (else infinite: one of the
-    crossings is nearest), both of shape (chord, first, second)
-    """
-    along, offset = chords.end - chords.start, q - chords.start
-    side = cross(along, offset)
-    length, dot = (along * along).sum(axis=1), (along * offset).sum(axis=1)
-    # The ray meets the chord's line if q lies to the left of it, seen upward.
-    hit = (side * np.sign(along[:, 1]) > 0).astype(np.int64)
-    below0, below1 = (moved.xy[..., 1] <= q[1] * moved.d for moved in (moved0, moved1))
-    turns = hit[:, None, None] * (
-        below1[:, None].astype(np.int64) - below0[:, :, None].astype(np.int64)
-    )
-    beyond0, beyond1 = (
-        np.sign(moved.along * length[:, None] - dot[:, None] * moved.d)
-        for moved in (moved0, moved1)
-    )
-    nearest_between = beyond0[:, :, None] * beyond1[:, None] < 0
-    distance = side * side / np.maximum(length, 1)
-    return turns, np.where(nearest_between, distance[:, None, None], np.inf)
 
 
 def _overlap(first: IntArray, second: IntArray) -> BoolArray:
