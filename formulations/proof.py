@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import importlib.util
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from formulations.cnf import Clause
@@ -53,8 +53,7 @@ def refute(clauses: Sequence[Clause]) -> Refutation | None:
     >>> proof.needed, proof.steps[-1].literals
     ((0, 1, 3, 4), ())
     """
-    if importlib.util.find_spec("pysat") is None:
-        raise MissingSolverError("cadical", "python-sat", "sat")
+    _need_pysat()
     from pysat.solvers import Solver
 
     with Solver(name="cadical195", bootstrap_with=map(list, clauses), with_proof=True) as solver:
@@ -65,6 +64,49 @@ def refute(clauses: Sequence[Clause]) -> Refutation | None:
         tuple(int(word) for word in line.split()[:-1]) for line in lines if not line.startswith("d")
     ]
     return _trim(clauses, [*lemmas, ()])
+
+
+def refute_lazily(
+    clauses: Sequence[Clause],
+    decisions: int,
+    violated: Callable[[tuple[int, ...]], Sequence[Clause]],
+) -> tuple[list[Clause], Refutation] | None:
+    """A refutation of clauses that are too many to write down: those in the way are asked for.
+
+    Parameters
+    ----------
+    clauses : sequence of clauses
+        To begin with.
+    decisions : int
+        The solution shown to `violated` are the variables 1 ... `decisions` that are true.
+    violated : callable
+        A solution to clauses that it violates, none if it satisfies all.
+
+    Returns
+    -------
+    all clauses used, and their refutation; None if there is a solution
+    """
+    _need_pysat()
+    from pysat.solvers import Solver
+
+    every = list(clauses)
+    with Solver(name="cadical195", bootstrap_with=map(list, every)) as solver:
+        while solver.solve():
+            model = solver.get_model() or []
+            chosen = tuple(j for j in model if 0 < j <= decisions)
+            found = violated(chosen)
+            if not found:
+                return None
+            every += found
+            for clause in found:
+                solver.add_clause(list(clause))
+    refutation = refute(every)
+    return None if refutation is None else (every, refutation)
+
+
+def _need_pysat() -> None:
+    if importlib.util.find_spec("pysat") is None:
+        raise MissingSolverError("cadical", "python-sat", "sat")
 
 
 def _trim(clauses: Sequence[Clause], lemmas: Sequence[Clause]) -> Refutation:

@@ -6,13 +6,16 @@ path, x_k the flow through k. Some spans are forbidden; some must not occur toge
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise, product
 
 import numpy as np
 
 from formulations.instance import BoolArray, FloatArray, Instance, IntArray, Row
 from formulations.team import Team
+
+Span = tuple[int, int]
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,6 +100,28 @@ class SpanProgram:
             definitions=(*definitions, *reach),
             start=self.start,
         )
+
+    def excluded(self, chosen: Sequence[int], openness_squared: float) -> list[tuple[Span, ...]]:
+        """Spans of a path through the chosen points that must not occur, or not together."""
+        spans = list(pairwise(chosen))
+        found: list[tuple[Span, ...]] = [
+            (span,) for span in spans if self.forbidden[span] < openness_squared
+        ]
+        for conflict in self.conflicts:
+            rows = [
+                {span: row for row, span in enumerate(map(tuple, side.tolist()))}
+                for side in (conflict.left, conflict.right)
+            ]
+            lefts, rights = ([span for span in spans if span in row] for row in rows)
+            middles: list[tuple[Span, ...]] = [()]
+            if conflict.middle is not None:
+                number = {span: m for m, span in enumerate(map(tuple, conflict.middle.tolist()))}
+                middles = [(span,) for span in spans if span in number]
+            for middle, left, right in product(middles, lefts, rights):
+                place = (*(number[span] for span in middle), rows[0][left], rows[1][right])
+                if conflict.margins[place] < openness_squared:
+                    found.append((left, right, *middle))
+        return found
 
     def _flow(self, variable: IntArray) -> Iterator[Row]:
         """Flow: exactly one span leaves (reaches) a robot, none where there is no robot."""

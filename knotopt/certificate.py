@@ -8,10 +8,13 @@ from itertools import count
 from math import comb
 from typing import Any, Literal
 
-from formulations.cnf import at_most, clauses
+from formulations.canonical import Program
+from formulations.cnf import Clause, at_most, clauses
 from formulations.instance import Instance
-from formulations.proof import refute
+from formulations.proof import refute, refute_lazily
 from formulations.solution import Limits, MissingSolverError
+from formulations.span import Span, SpanProgram
+from formulations.team import not_consecutive
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import Cut, crossing_free_cuts
 from knotopt.diagram.grid import GridDiagram
@@ -46,8 +49,8 @@ def prove(
     cuts : iterable of Cut, optional
         By default every crossing-free one.
     method : "refutation" or "count", optional
-        By default a refutation by CaDiCaL for `opening`, counting (the checker goes through all
-        smaller sets, `MAX_COUNT` at most) for `span`.
+        By default a refutation by CaDiCaL. With "count" the checker goes through all smaller sets,
+        `MAX_COUNT` at most.
     limits : Limits, optional
 
     Raises
@@ -72,15 +75,14 @@ def prove(
         raise KeyboardInterrupt
     if not search.is_proven:
         raise CertificateError(f"{name}: the minimum was not proven within the limits")
-    if method is None:
-        method = "count" if asked.formulation is Formulation.SPAN else "refutation"
+    method = method or "refutation"
     bounds = []
     for cut in chosen:
         program = compile_program(lcf(Cable(diagram, cut)), asked)
         instance = program.instance(float(asked.openness**2))
         bound: dict[str, Any] = {"cut": str(cut), "instance": instance.hash, "method": method}
         if method == "refutation":
-            bound |= _refutation(instance, best.robots, asked)
+            bound |= _refutation(program, instance, best.robots, asked)
         else:
             smaller = sum(comb(instance.decisions - 2, k) for k in range(best.robots - 2))
             if smaller > MAX_COUNT:
@@ -106,19 +108,37 @@ def prove(
     return json.dumps(certificate, separators=(",", ":")) + "\n"
 
 
-def _refutation(instance: Instance, robots: int, asked: Requirements) -> dict[str, Any]:
-    if asked.formulation is not Formulation.OPENING:
-        raise CertificateError("a refutation can be had for the formulation opening only")
+def _refutation(
+    program: Program, instance: Instance, robots: int, asked: Requirements
+) -> dict[str, Any]:
     points = instance.decisions
-    given = list(clauses(instance))
-    given += at_most(range(1, points + 1), robots - 1, count(points + 1))
+    counting = list(at_most(range(1, points + 1), robots - 1, count(points + 1)))
+    spans: dict[Clause, tuple[Span, ...]] = {}
+
+    def violated(chosen: tuple[int, ...]) -> list[Clause]:
+        """Clauses of `span` that a path violates; which spans they speak of is kept."""
+        assert isinstance(program, SpanProgram)
+        found = {}
+        for excluded in program.excluded(chosen, float(asked.openness**2)):
+            literals = {x for u, w in excluded for x in not_consecutive(u, w)}
+            found[tuple(sorted(literals, key=abs))] = excluded
+        spans.update(found)
+        return list(found)
+
     try:
-        refutation = refute(given)
+        if asked.formulation is Formulation.SPAN:
+            refuted = refute_lazily([(1,), (points,), *counting], points, violated)
+        else:
+            given = [*clauses(instance), *counting]
+            refutation = refute(given)
+            refuted = None if refutation is None else (given, refutation)
     except MissingSolverError as error:
         raise MissingExtraError(error.package, error.extra, "a refutation") from error
-    if refutation is None:
+    if refuted is None:
         raise CertificateError(f"a set of {robots - 1} robots exists: {robots} is not the minimum")
-    return {
-        "clauses": [list(given[index]) for index in refutation.needed],
-        "steps": [[list(step.literals), list(step.hints)] for step in refutation.steps],
-    }
+    given, refutation = refuted
+    needed = [given[index] for index in refutation.needed]
+    content: dict[str, Any] = {"clauses": needed}
+    if asked.formulation is Formulation.SPAN:
+        content["spans"] = [spans.get(clause, ()) for clause in needed]
+    return {**content, "steps": [[step.literals, step.hints] for step in refutation.steps]}

@@ -423,7 +423,7 @@ def test_prove_and_check(cli: Cli, tmp_path: Path) -> None:
         (("3", "--method", "faith"), 2, "expected refutation or count"),
         (("3", "--r", "2"), 1, "must lie in (0, 1]"),
         (("3", "--time-limit", "-1"), 1, "time limit must be positive"),
-        (("3", "--formulation", "span", "--method", "refutation"), 1, "opening only"),
+        (("7 Var1", "--method", "count"), 1, "too many to count"),
     ):
         status, _, err = cli("prove", *arguments, "--out", tmp_path / "b.jsonl")
         assert status == code and message in err

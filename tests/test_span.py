@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import combinations, pairwise
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -16,7 +17,8 @@ from knotopt.supports.lcf import best_cut
 from knotopt.supports.regions import Regions
 from knotopt.supports.span import compile_span
 from knotopt.supports.threading import Threading
-from knotopt.verify.span import check_span
+from knotopt.verify.regions import define_regions
+from knotopt.verify.span import SpanRules, check_span
 
 MODES = st.sampled_from(list(Threading))
 OPENNESS = st.integers(1, 1000).map(lambda thousandths: Fraction(thousandths, 1000))
@@ -49,3 +51,23 @@ def test_figures_measured_before() -> None:
             instance = compile_span(regions, pockets=False).instance(0.25**2)
             found.append(get_backend().solve(instance, Limits()).objective)
     assert found == [5, 6, 6, 6, 11, 8]
+
+
+@settings(max_examples=150)
+@given(cables(min_size=4, max_size=8), MODES, OPENNESS, st.data())
+def test_what_the_rules_exclude_is_in_no_open_set(
+    cable: Cable, mode: Threading, openness: Fraction, data: st.DataObject
+) -> None:
+    """Rules for certificates: sound (no open set has the spans) and enough (some spans tell)."""
+    count = len(cable.path)
+    regions = define_regions(cable.path, cable.diagram.size)
+    rules = SpanRules(cable.path, regions, openness, mode)
+    for _ in range(3):
+        dropped = data.draw(st.sets(st.integers(2, count - 1), max_size=count - 2))
+        supports = [k for k in range(2, count) if k not in dropped]
+        spans = list(pairwise([1, *supports, count]))
+        report = check_span(cable.path, cable.diagram.size, supports, openness, mode, regions)
+        excluded = any(
+            rules.exclude(chosen) for size in (1, 2, 3) for chosen in combinations(spans, size)
+        )
+        assert excluded != report.is_open, (supports, report.closures)

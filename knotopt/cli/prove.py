@@ -43,7 +43,7 @@ def prove(
     method: Annotated[
         str | None,
         typer.Option(
-            help="refutation (by CaDiCaL; opening only) or count (the checker examines every "
+            help="refutation (by CaDiCaL; the default) or count (the checker examines every "
             "smaller set).",
             show_default=False,
         ),

@@ -6,14 +6,15 @@ every smaller set is examined. The check starts from the marks and the definitio
 
 In a refutation, variable j = 1 ... n says that p_j carries a robot. Variables from n + 1 on count:
 with m = k - 1, variable (i, j) says that at least j of p_1 ... p_i do, for i = 1 ... n - 1 and
-j = 1 ... min(i, m), numbered in that order.
+j = 1 ... min(i, m), numbered in that order. For `span`, "spans" lists with each clause the spans
+that it excludes together.
 """
 
 from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
@@ -25,7 +26,7 @@ from knotopt.verify.cable import cable_path, closed_path, crossing_free_cuts
 from knotopt.verify.lrat import RefutationError, check_refutation
 from knotopt.verify.opening import check_opening, closing_clauses
 from knotopt.verify.regions import Cell, define_regions
-from knotopt.verify.span import check_span
+from knotopt.verify.span import SpanRules, check_span
 
 FORMAT = "knotopt certificate 1"
 MODES = ("turning-point", "over-under")
@@ -134,37 +135,61 @@ def _check_bound(
 ) -> None:
     """Whether `robots` - 1 robots are too few on one cut."""
     cut, method = _get(bound, "cut", str), _get(bound, "method", str)
-    path, size = _path(marks, cut), len(marks) // 2
-    regions = define_regions(path, size)
+    path = _path(marks, cut)
+    regions = define_regions(path, len(marks) // 2)
     if method == "count":
-        free = len(path) - 2
-        smaller = sum(comb(free, count) for count in range(max(0, robots - 2)))
-        if smaller > MAX_COUNT:
-            raise CertificateError(f"cut {cut}: {smaller} smaller sets are too many to examine")
         examine = check_span if formulation == "span" else check_opening
-        for count in range(max(0, robots - 2)):
-            for supports in combinations(range(2, len(path)), count):
-                if examine(path, size, supports, openness, mode, regions).is_open:
-                    raise CertificateError(f"cut {cut}: the smaller set {supports} is open")
+        size = len(marks) // 2
+
+        def is_open(supports: tuple[int, ...]) -> bool:
+            return examine(path, size, supports, openness, mode, regions).is_open
+
+        _count_smaller(cut, len(path), robots, is_open)
         return
-    if method != "refutation" or formulation != "opening":
-        raise CertificateError(f"cut {cut}: no method {method!r} is known for {formulation}")
+    if method != "refutation":
+        raise CertificateError(f"cut {cut}: no method {method!r} is known")
     given = [_clause(clause) for clause in _get(bound, "clauses", list)]
-    allowed = closing_clauses(path, regions, openness, mode)
-    allowed |= {frozenset([1]), frozenset([len(path)])}
-    allowed |= set(_count_clauses(len(path), robots - 1))
+    allowed = {frozenset([1]), frozenset([len(path)]), *_count_clauses(len(path), robots - 1)}
+    if formulation == "opening":
+        allowed |= closing_clauses(path, regions, openness, mode)
+    else:
+        allowed |= _span_clauses(bound, SpanRules(path, regions, openness, mode))
     for number, clause in enumerate(given, 1):
         if frozenset(clause) not in allowed:
             raise CertificateError(f"cut {cut}: clause {number} does not follow from the diagram")
-    steps = []
-    for step in _get(bound, "steps", list):
-        if not isinstance(step, list) or len(step) != 2:
-            raise CertificateError(f"cut {cut}: a step is not [clause, hints]")
-        steps.append((_clause(step[0]), _clause(step[1])))
     try:
-        check_refutation(given, steps)
+        check_refutation(given, [_step(step) for step in _get(bound, "steps", list)])
     except RefutationError as error:
         raise CertificateError(f"cut {cut}: {error}") from error
+
+
+def _count_smaller(
+    cut: str, points: int, robots: int, is_open: Callable[[tuple[int, ...]], bool]
+) -> None:
+    """Whether no set of fewer robots is open, by examining every one."""
+    sizes = range(max(0, robots - 2))
+    smaller = sum(comb(points - 2, size) for size in sizes)
+    if smaller > MAX_COUNT:
+        raise CertificateError(f"cut {cut}: {smaller} smaller sets are too many to examine")
+    for size in sizes:
+        for supports in combinations(range(2, points), size):
+            if is_open(supports):
+                raise CertificateError(f"cut {cut}: the smaller set {supports} is open")
+
+
+def _span_clauses(bound: dict[str, Any], rules: SpanRules) -> set[frozenset[int]]:
+    """The clauses of those listed sets of spans that no open set has together.
+
+    (u, w) is no span: p_u or p_w carries no robot, or one between them does.
+    """
+    found = set()
+    for entry in _get(bound, "spans", list):
+        spans = [_clause(span) for span in entry] if isinstance(entry, list) else [()]
+        if not all(len(span) == 2 and 1 <= span[0] < span[1] <= rules.points for span in spans):
+            raise CertificateError(f"spans: {entry!r} is no list of pairs of turning points")
+        if spans and rules.exclude([(u, w) for u, w in spans]):
+            found.add(frozenset(x for u, w in spans for x in (-u, -w, *range(u + 1, w))))
+    return found
 
 
 def _count_clauses(points: int, most: int) -> Iterator[frozenset[int]]:
@@ -220,6 +245,12 @@ def _clause(literals: Any) -> tuple[int, ...]:
     if not isinstance(literals, list):
         raise CertificateError(f"{literals!r} is no list of integers")
     return tuple(_integer(literal, "clauses") for literal in literals)
+
+
+def _step(step: Any) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    if not isinstance(step, list) or len(step) != 2:
+        raise CertificateError(f"steps: {step!r} is not [clause, hints]")
+    return _clause(step[0]), _clause(step[1])
 
 
 def _fraction(text: str) -> Fraction:

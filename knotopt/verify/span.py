@@ -115,13 +115,7 @@ def check_span(
         if region.kind == "pocket" and not pockets:
             continue
         reasons: Reasons = []
-        strands: dict[int, Cell] = {}  # time of entry to the first turning point inside
-        for q in threading_cells(region, path, cells, mode):
-            entry = times[q]
-            while cells[entry] in region.interior:
-                entry -= 1
-            strands.setdefault(entry, q)
-        for entry, q in strands.items():
+        for entry, q in _strands(region, path, cells, mode).items():
             intervals = _intervals(region, robots)
             taut = _Taut(cells, robots, q, entry, max(region.walk))
             opening, found = _examine(taut, intervals, openness)
@@ -131,6 +125,19 @@ def check_span(
         if reasons:
             closed.append(index)
     return OpeningReport(tuple(closures), tuple(closed), smallest)
+
+
+def _strands(
+    region: DefinedRegion, path: Sequence[Cell], cells: Sequence[Cell], mode: str
+) -> dict[int, Cell]:
+    """For each strand that threads the region: time of entry, first turning point inside."""
+    strands: dict[int, Cell] = {}
+    for q in threading_cells(region, path, cells, mode):
+        entry = cells.index(q)
+        while cells[entry] in region.interior:
+            entry -= 1
+        strands.setdefault(entry, q)
+    return strands
 
 
 def _intervals(region: DefinedRegion, robots: Sequence[int]) -> list[_Interval]:
@@ -207,18 +214,151 @@ def _corners(taut: _Taut, intervals: Sequence[_Interval], reasons: Reasons) -> l
     on_held = {partner[v]: v for v in partner} if a.robots else partner
     at_low, at_high = (low, high) if bare is a or partner[a.low] == b.low else (high, low)
     before, after = (anchor(held, on_held[v]) for v in (bare.low, bare.high))
+    return [_together(taut, bare, on_held, (before, after), (at_low, at_high))]
+
+
+def _together(
+    taut: _Taut,
+    bare: _Interval,
+    on_held: dict[int, int],
+    anchors: tuple[int, int],
+    at: tuple[Point, Point],
+) -> Corner:
+    """Two corners on one span over the interval `bare`, between robots of the other side."""
     curve: list[Point] = [
-        *taut.grid(before, on_held[bare.low]),
+        *taut.grid(anchors[0], on_held[bare.low]),
         *taut.grid(bare.low, bare.high),
-        *taut.grid(on_held[bare.high], after),
-        at_high,
-        at_low,
+        *taut.grid(on_held[bare.high], anchors[1]),
+        at[1],
+        at[0],
     ]
-    edges = [(cells[before], at_low), (at_low, at_high), (at_high, cells[after])]
-    return [(curve, edges)]
+    cells = taut.cells
+    edges = [(cells[anchors[0]], at[0]), (at[0], at[1]), (at[1], cells[anchors[1]])]
+    return curve, edges
 
 
 def _one(taut: _Taut, before: tuple[int, int], after: tuple[int, int], at: Point) -> Corner:
     """One corner: from a robot to a visit of the crossing, from the other visit to a robot."""
     curve: list[Point] = [*taut.grid(*before), *taut.grid(*after), at]
     return curve, [(taut.cells[before[0]], at), (at, taut.cells[after[1]])]
+
+
+Span = tuple[int, int]
+
+
+class SpanRules:
+    """Which spans no open set has together, by the definition.
+
+    Parameters
+    ----------
+    path : sequence of (column, row)
+    regions : iterable of DefinedRegion
+    openness : Fraction
+    mode : "turning-point" or "over-under"
+
+    Examples
+    --------
+    >>> path = [(1, 5), (4, 5), (4, 2), (2, 2), (2, 4), (5, 4), (5, 1), (3, 1), (3, 3), (1, 3)]
+    >>> rules = SpanRules(path, define_regions(path, 5), Fraction(1, 2))
+    >>> rules.exclude([(1, 10)]), rules.exclude([(1, 2), (2, 3)])
+    (True, False)
+    """
+
+    def __init__(
+        self,
+        path: Sequence[Cell],
+        regions: Iterable[DefinedRegion],
+        openness: Fraction,
+        mode: str = "over-under",
+    ) -> None:
+        self.points = len(path)
+        self._cells = lay(path)
+        times = {cell: time for time, cell in enumerate(self._cells)}
+        self._times = [times[cell] for cell in path]
+        self._openness = openness
+        self._threads = [
+            (region, q, entry)
+            for region in regions
+            for entry, q in _strands(region, path, self._cells, mode).items()
+        ]
+
+    def exclude(self, spans: Sequence[Span]) -> bool:
+        """Whether no open set has all these spans; a span is a pair of turning points (1-based).
+
+        True only if what the definition says of these spans alone rules them out.
+        """
+        laid = [(self._times[u - 1], self._times[w - 1]) for u, w in spans]
+        robots = sorted({time for span in laid for time in span})
+        for region, q, entry in self._threads:
+            taut = _Taut(self._cells, robots, q, entry, max(region.walk))
+            if self._lost(taut, _intervals(region, robots), laid):
+                return True
+        return False
+
+    def _lost(self, taut: _Taut, intervals: Sequence[_Interval], laid: Sequence[Span]) -> bool:
+        for interval in intervals:
+            for start, end in laid:
+                if interval.low < start < end < interval.high:
+                    stretch = taut.grid(start, end)
+                    if self._passes(taut, stretch, [(stretch[0], stretch[-1])]):
+                        return True
+        return any(self._passes(taut, *corner) for corner in self._moved(taut, intervals, laid))
+
+    def _passes(
+        self, taut: _Taut, curve: Sequence[Point], edges: Sequence[tuple[Point, Point]]
+    ) -> bool:
+        """Whether an edge comes too close to the threading point, or the curve winds round it."""
+        if any(squared_distance(taut.q, *edge) < self._openness**2 for edge in edges):
+            return True
+        return not edges or winding_number(curve, taut.q) != 0
+
+    def _moved(
+        self, taut: _Taut, intervals: Sequence[_Interval], laid: Sequence[Span]
+    ) -> list[Corner]:
+        """The corners that these spans settle; one without edges is a crossing that is lost."""
+        lost: Corner = ([], [])
+        loop = len(intervals) == 1
+        first, second = intervals[0], intervals[-1]
+        cells = taut.cells
+        corners = [(first.low, first.high)]
+        if not loop:
+            ends = (second.low, second.high)
+            corners = [
+                (visit, next(other for other in ends if cells[other] == cells[visit]))
+                for visit in (first.low, first.high)
+            ]
+
+        def over(time: int) -> Span | None:
+            return next((span for span in laid if span[0] < time < span[1]), None)
+
+        def anchor(interval: _Interval, visit: int) -> int | None:
+            span = over(visit)
+            end = None if span is None else span[1] if visit == interval.low else span[0]
+            return end if end is not None and interval.low < end < interval.high else None
+
+        found: list[Corner] = []
+        at: dict[int, Point] = {}
+        for one, other in corners:
+            if over(one) is None or over(other) is None:
+                continue
+            crossing = taut.crossing(one, other)
+            if crossing is None:
+                return [lost]
+            at[one] = at[other] = crossing
+            ends_at = anchor(first, one), anchor(second, other)
+            if ends_at[0] is not None and ends_at[1] is not None:
+                found.append(_one(taut, (ends_at[1], other), (one, ends_at[0]), crossing))
+        if loop or len(at) < 4:
+            return found
+        # Both corners of a pocket: is a side a single span?
+        partner = dict(corners) | {other: one for one, other in corners}
+        bare = [side for side in intervals if over(side.low) == over(side.high)]
+        if len(bare) == 2:
+            return [lost]
+        for side in bare:
+            held = second if side is first else first
+            before, after = (anchor(held, partner[visit]) for visit in (side.low, side.high))
+            if before is not None and after is not None:
+                moved = at[side.low], at[side.high]
+                found.append(_together(taut, side, partner, (before, after), moved))
+        return found
