@@ -241,8 +241,11 @@ def _interrupted(
     """Whether a solver stopped early although no limit was reached."""
     if status not in (Status.FEASIBLE, Status.UNKNOWN):
         return False
-    if limits.seconds is not None and answer.solve_seconds > 0.9 * limits.seconds:
-        return False
+    if limits.seconds is not None:
+        # Solvers may stop a little before their limit; of a very short one nothing can be said.
+        early = max(0.05, 0.1 * limits.seconds)
+        if answer.solve_seconds > limits.seconds - early:
+            return False
     if limits.gap and objective is not None and bound is not None:
         return (objective - bound) / max(1, objective) > limits.gap
     return True

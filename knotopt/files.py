@@ -5,6 +5,7 @@ What takes long is collected beside its final place and goes on where it stopped
 
 from __future__ import annotations
 
+import json
 import os
 import uuid
 from collections.abc import Callable, Iterator
@@ -63,7 +64,7 @@ class Lines:
 def resumable_lines(
     path: Path, header: str, finish: Callable[[list[str]], str] | None = None
 ) -> Iterator[Lines]:
-    """Collect the lines of a file, which lands under its name when all are there.
+    """Collect the lines of a file, JSON each, which lands under its name when all are there.
 
     Until then, and if anything fails, they are in `PATH.partial` after a line with the header. A
     later call with the same header finds them in `done`; a torn last line is dropped. `finish`
@@ -72,7 +73,7 @@ def resumable_lines(
     Raises
     ------
     OutputError
-        The file cannot be written there, or the partial one is of another run.
+        The file cannot be written there, or the partial one is damaged or of another run.
     """
     partial = path.with_name(f"{path.name}.partial")
     try:
@@ -88,6 +89,11 @@ def resumable_lines(
             f"{partial} has the beginning of another run: finish that one, or remove the file"
         )
     done = rest[:-1]  # what follows the last line end is torn
+    for number, line in enumerate(done, 2):
+        try:
+            json.loads(line)
+        except ValueError as error:
+            raise OutputError(f"{partial}, line {number} is damaged: remove the file") from error
     write_atomically(partial, "\n".join([header, *done, ""]))
     try:
         with partial.open("a", encoding="utf-8") as stream:

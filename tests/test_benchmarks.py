@@ -76,7 +76,17 @@ def test_a_partial_run_of_another_kind_is_kept(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="the beginning of another run"):
         harness.run_benchmark(counting, tmp_path)
     assert partial.read_text() == other
+    for damage in (b"\xff\n", other.splitlines(keepends=True)[0].encode() + b"{torn}\n"):
+        partial.write_bytes(damage)
+        with pytest.raises(OutputError, match="remove the file"):
+            harness.run_benchmark(counting, tmp_path)
+        assert partial.read_bytes() == damage
     partial.unlink()
-    header, *rows = records(harness.run_benchmark(counting, tmp_path))
-    assert header["benchmark"] == "counting" and "machine" in header
+    header = {"benchmark": "counting", "smoke": False, "machine": harness.machine_facts()}
+    partial.write_text(json.dumps(header) + "\n{torn}\n")
+    with pytest.raises(OutputError, match="line 2 is damaged"):
+        harness.run_benchmark(counting, tmp_path)
+    partial.unlink()
+    first, *rows = records(harness.run_benchmark(counting, tmp_path))
+    assert first["benchmark"] == "counting" and "machine" in first
     assert [row["result"] for row in rows] == [{"k": 0}, {"k": 1}]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import sys
 from dataclasses import replace
@@ -247,6 +246,18 @@ def test_a_wrong_answer_is_an_error() -> None:
     assert (found.status, found.gap) == (Status.OPTIMAL, 0)
 
 
+@pytest.mark.parametrize(
+    ("seconds", "spent", "interrupted"),
+    [(None, 1, True), (10, 1, True), (10, 9.5, False), (1e-3, 2e-4, False)],
+)
+def test_stopped_early_without_a_limit(
+    seconds: float | None, spent: float, interrupted: bool
+) -> None:
+    answer = Answer(Status.UNKNOWN, "stopped", solve_seconds=spent)
+    found = checked(answer, COVER, Limits(seconds), build_seconds=0, solver="")
+    assert found.interrupted is interrupted
+
+
 def test_instances_that_need_no_solver() -> None:
     """Without rows, or with one that has too few literals: all solvers say the same."""
     impossible = replace(COVER, rows=(*COVER.rows, Row((1,), 2, "two of one", "a")))
@@ -397,6 +408,5 @@ def test_solvers_share_a_process_in_either_order() -> None:
             capture_output=True,
             text=True,
             check=True,
-            env=dict(os.environ),
         )
         assert json.loads(run.stdout) == [2, 2, 2]
