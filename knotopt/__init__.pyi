@@ -20,6 +20,16 @@ from .diagram.grid import GridDiagram as GridDiagram
 from .diagram.reading import read_grid as read_grid
 from .diagram.simplify import simplify as simplify
 from .errors import KnotoptError as KnotoptError
+from .path.curve import Curve as Curve
+from .path.optimise import optimise_path as optimise_path
+from .path.relaxation import Relaxation as Relaxation
+from .path.relaxation import relax as relax
+from .path.relaxation import relaxed_path as relaxed_path
+from .path.requirements import PathRequirements as PathRequirements
+from .path.result import PathResult as PathResult
+from .path.taut import taut_length as taut_length
+from .path.taut import taut_string as taut_string
+from .path.world import World as World
 from .supports.lcf import LcfResult as LcfResult
 from .supports.lcf import best_cut as best_cut
 from .supports.lcf import lcf as lcf
@@ -35,6 +45,7 @@ from .supports.search import best_supports as best_supports
 from .supports.search import supports_by_cut as supports_by_cut
 from .verify.certificate import check_certificate as check_certificate
 from .verify.opening import check_opening as check_opening
+from .verify.path import check_path as check_path
 from .verify.span import check_span as check_span
 
 __version__: str

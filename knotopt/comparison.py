@@ -15,6 +15,8 @@ from formulations.backends import DEFAULT
 from formulations.solution import Limits
 from knotopt.cable.cut import Cut, crossing_free_cuts
 from knotopt.diagram.grid import GridDiagram
+from knotopt.path import measures
+from knotopt.path.measures import PathMeasures, both_methods, measure
 from knotopt.supports.lcf import LcfResult, lcf_by_cut
 from knotopt.supports.minimal import defined_regions
 from knotopt.supports.requirements import Formulation, Requirements
@@ -22,6 +24,7 @@ from knotopt.supports.search import CutSearch, best_supports
 from knotopt.verify.opening import check_opening
 
 HEADS = ("knot", "before", "LCF", "open", "layered", "open", "opening", "span", "proven")
+PATH_KEYS = ("supports", "method", "cut", "robots")  # of a path, which the row says already
 NOTE = """\
 Robots, the two lifting ones included. Each method has its own best of the cuts named (ties: the \
 first). LCF is "open" if its set keeps every active region open by the definition of `opening` \
@@ -34,7 +37,9 @@ class ComparisonRow:
     """One knot; the fields are the columns of the CSV and the keys of the JSON.
 
     Robots count the lifting robots; `*_cut` is the cut with the fewest; times are for all cuts
-    together [s], those of `opening` and `span` with the regions that they take from LCF.
+    together [s], those of `opening` and `span` with the regions that they take from LCF. `paths`
+    are the relaxation's and the program's on LCF's set, then on the smallest of `opening`; in the
+    CSV each has columns `lcf_relaxation_length` and so on.
     """
 
     knot: str
@@ -59,6 +64,7 @@ class ComparisonRow:
     span_cut: str
     span_proven: bool
     span_seconds: float
+    paths: tuple[PathMeasures, ...]
 
 
 def compare(
@@ -134,6 +140,13 @@ def compare(
         span_cut=str(by_span.best.cable.cut),
         span_proven=by_span.is_proven,
         span_seconds=round(seconds[Formulation.SPAN], 6),
+        paths=(
+            *(measure(path, "lcf") for path in both_methods(plain)),
+            *(
+                measure(path, "opening")
+                for path in (both_methods(by_opening.best) if by_opening.best.found else ())
+            ),
+        ),
     )
 
 
@@ -199,52 +212,81 @@ def averages(rows: list[ComparisonRow]) -> list[str]:
 def to_csv(rows: list[ComparisonRow]) -> str:
     """All fields of the rows as CSV."""
     buffer = io.StringIO()
-    names = [field.name for field in fields(ComparisonRow)]
+    names = [field.name for field in fields(ComparisonRow) if field.name != "paths"]
+    names += [
+        f"{supports}_{method}_{field.name}"
+        for supports in ("lcf", "opening")
+        for method in ("relaxation", "nlp")
+        for field in fields(PathMeasures)
+        if field.name not in PATH_KEYS
+    ]
     writer = csv.DictWriter(buffer, names, lineterminator="\n")
     writer.writeheader()
-    writer.writerows(map(asdict, rows))
+    for row in rows:
+        cells = asdict(row)
+        for path in cells.pop("paths"):
+            prefix = f"{path['supports']}_{path['method']}_"
+            cells |= {prefix + k: v for k, v in path.items() if k not in PATH_KEYS}
+        writer.writerow(cells)
     return buffer.getvalue()
 
 
+def path_summary(rows: list[ComparisonRow]) -> list[list[str]]:
+    """Cells under `measures.SUMMARY_HEADS`: medians over the rows, by supports and method."""
+    return measures.summary(path for row in rows for path in row.paths)
+
+
 def to_markdown(rows: list[ComparisonRow]) -> str:
-    """The displayed cells as a Markdown table, with the note."""
-    lines = ["| " + " | ".join(HEADS) + " |", "|---" + "|---:" * (len(HEADS) - 1) + "|"]
-    lines += ["| " + " | ".join(cells) + " |" for cells in _lines(rows)]
-    return "\n".join([*lines, "", NOTE, ""])
+    """The displayed cells and the summary of the paths as Markdown tables, with their notes."""
+    parts = []
+    for heads, lines, note in _tables(rows):
+        parts += ["| " + " | ".join(heads) + " |", "|---" + "|---:" * (len(heads) - 1) + "|"]
+        parts += ["| " + " | ".join(cells) + " |" for cells in lines]
+        parts += ["", note, ""]
+    return "\n".join(parts)
 
 
 def to_latex(rows: list[ComparisonRow]) -> str:
-    """The displayed cells as a LaTeX table in the style of booktabs."""
+    """The same two tables as LaTeX in the style of booktabs, without notes."""
 
     def line(cells: list[str]) -> str:
         escaped = [cell.replace("_", r"\_").replace("%", r"\%") for cell in cells]
         return " & ".join(escaped) + r" \\"
 
-    body = [line(cells) for cells in _lines(rows)]
-    if len(rows) > 1:
-        body.insert(-1, r"\midrule")
-    return "\n".join(
-        [
-            "% needs \\usepackage{booktabs}",
-            r"\begin{tabular}{l" + "r" * (len(HEADS) - 1) + "}",
+    parts = ["% needs \\usepackage{booktabs}"]
+    for heads, lines, _ in _tables(rows):
+        parts += [
+            r"\begin{tabular}{l" + "r" * (len(heads) - 1) + "}",
             r"\toprule",
-            line(list(HEADS)),
+            line(list(heads)),
             r"\midrule",
-            *body,
+            *map(line, lines),
             r"\bottomrule",
             r"\end{tabular}",
             "",
         ]
-    )
+    return "\n".join(parts)
 
 
 def from_json(line: str) -> ComparisonRow:
     """The row that `json.dumps(asdict(row))` wrote."""
-    return ComparisonRow(**json.loads(line))
+    content = json.loads(line)
+    paths = tuple(PathMeasures(**path) for path in content.pop("paths"))
+    return ComparisonRow(**content, paths=paths)
 
 
 FORMATS: dict[str, Any] = {".csv": to_csv, ".md": to_markdown, ".tex": to_latex}
 """Suffix of a file to what writes its text."""
+
+
+def _tables(
+    rows: list[ComparisonRow],
+) -> list[tuple[tuple[str, ...], list[list[str]], str]]:
+    """Heads, lines and note of each table."""
+    return [
+        (HEADS, _lines(rows), NOTE),
+        (measures.SUMMARY_HEADS, path_summary(rows), measures.NOTE),
+    ]
 
 
 def _lines(rows: list[ComparisonRow]) -> list[list[str]]:

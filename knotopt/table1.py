@@ -10,7 +10,7 @@ import csv
 import io
 import json
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 from formulations.backends import DEFAULT
@@ -18,6 +18,9 @@ from knotopt.cable.cable import Cable
 from knotopt.cable.staircase import find_staircases
 from knotopt.catalogue.table1_grids import Table1Grid, table1_grids
 from knotopt.diagram.grid import Mark
+from knotopt.path import measures
+from knotopt.path.measures import PathMeasures, both_methods, measure
+from knotopt.path.result import PathResult
 from knotopt.supports.lcf import LcfResult, best_cut
 from knotopt.supports.minimal import MinimalSupports, minimal_supports
 from knotopt.supports.requirements import Formulation, Requirements
@@ -91,12 +94,22 @@ class Table1Row:
 
 @dataclass(frozen=True)
 class Table1Result:
-    """A row, and what it summarises: LCF on its best outer cut, the smallest sets on theirs."""
+    """A row, and what it summarises: LCF on its best outer cut, the smallest sets on theirs.
+
+    `relaxed` and `optimised` are the paths of LCF's set.
+    """
 
     row: Table1Row
     lcf: LcfResult
     opening: MinimalSupports
     span: MinimalSupports
+    relaxed: PathResult
+    optimised: PathResult
+
+    @property
+    def paths(self) -> list[PathMeasures]:
+        """The measures of both paths."""
+        return [measure(path, "lcf") for path in (self.relaxed, self.optimised)]
 
 
 def compute_table1(*, all_grids: bool = False) -> Iterator[Table1Result]:
@@ -154,6 +167,37 @@ def table1_markdown(rows: list[Table1Row]) -> str:
     return "\n".join(["# Table I, recomputed", "", *lines, "", NOTE, ""])
 
 
+PATH_HEADS = ("row", "knot", *measures.HEADS)
+
+
+def display_paths(results: list[Table1Result]) -> list[list[str]]:
+    """The cells under `PATH_HEADS` of the paths of every row."""
+    return [
+        [result.row.row, result.row.knot, *measures.display(path)]
+        for result in results
+        for path in result.paths
+    ]
+
+
+def paths_csv(results: list[Table1Result]) -> str:
+    """The measures of every path as CSV."""
+    buffer = io.StringIO()
+    names = ["row", "knot", *(field.name for field in fields(PathMeasures))]
+    writer = csv.DictWriter(buffer, names, lineterminator="\n")
+    writer.writeheader()
+    for result in results:
+        for path in result.paths:
+            writer.writerow({"row": result.row.row, "knot": result.row.knot, **asdict(path)})
+    return buffer.getvalue()
+
+
+def paths_markdown(results: list[Table1Result]) -> str:
+    """The displayed measures as a Markdown table with the note."""
+    lines = ["| " + " | ".join(PATH_HEADS) + " |", "|---" * len(PATH_HEADS) + "|"]
+    lines += ["| " + " | ".join(cells) + " |" for cells in display_paths(results)]
+    return "\n".join(["# Table I: paths on LCF's supports", "", *lines, "", measures.NOTE, ""])
+
+
 def _result(grid: Table1Grid) -> Table1Result:
     result = best_cut(grid.diagram)
     cable = result.cable
@@ -186,7 +230,7 @@ def _result(grid: Table1Grid) -> Table1Result:
         proven=opening_proven and span_proven,
         grid=grid.marks,
     )
-    return Table1Result(row, result, opening, span)
+    return Table1Result(row, result, opening, span, *both_methods(result))
 
 
 def _smallest(

@@ -46,7 +46,7 @@ def compare(
     ] = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Compare baseline, LCF, LCF layered, opening and span: robots, open or not, proven or not.
+    """Compare baseline, LCF, LCF layered, opening and span, and paths by both methods.
 
     With --out, a run that is interrupted goes on where it stopped.
     Example: knotopt compare 3 4 5 8_19 'T(3,5)' --out comparison.tex
@@ -55,6 +55,7 @@ def compare(
     from knotopt.cable.cut import Cut
     from knotopt.errors import OutputError
     from knotopt.files import resumable_lines
+    from knotopt.path import measures
 
     found = find_knots(knots, catalogue=catalogue)
     if out is not None and out.suffix.lower() not in comparison.FORMATS:
@@ -90,5 +91,7 @@ def compare(
     last = [comparison.averages(rows)] if len(rows) > 1 else []
     print_table(comparison.HEADS, [*map(comparison.display, rows), *last])
     print_note(comparison.NOTE)
+    print_table(measures.SUMMARY_HEADS, comparison.path_summary(rows))
+    print_note(f"Medians over {len(rows)} knots. {measures.NOTE}")
     if out is not None:
         print_written(out)

@@ -30,7 +30,7 @@ def cable_figure(cable: Cable, title: str) -> Figure:
     draw_cable(axes, cable)
     handles = draw_robots(axes, cable, [])
     figure.suptitle(title, fontsize=9, parse_math=False)
-    figure.legend(handles=handles[1:], loc="outside lower center", ncols=2, **_LEGEND)
+    figure.legend(handles=handles[1:], loc="outside lower center", ncols=2, **LEGEND)
     return figure
 
 
@@ -48,7 +48,7 @@ def supports_figure(
     if taut:
         handles += draw_spans(axes, regions.cable, supports)
     figure.suptitle(title, fontsize=9, parse_math=False)
-    figure.legend(handles=[*handles, *shades], loc="outside lower center", ncols=2, **_LEGEND)
+    figure.legend(handles=[*handles, *shades], loc="outside lower center", ncols=2, **LEGEND)
     return figure
 
 
@@ -64,7 +64,7 @@ def before_after_figure(result: LcfResult, title: str) -> Figure:
     handles = draw_robots(after, cable, result.supports)
     after.set_title(f"after: {result.robots} robots", fontsize=9)
     figure.suptitle(title, fontsize=9, parse_math=False)
-    figure.legend(handles=[*handles, *regions], loc="outside lower center", ncols=2, **_LEGEND)
+    figure.legend(handles=[*handles, *regions], loc="outside lower center", ncols=2, **LEGEND)
     return figure
 
 
@@ -96,7 +96,7 @@ def minimal_figure(results: Sequence[MinimalSupports], title: str) -> Figure:
             handles += draw_spans(axes, cable, result.supports)
         axes.set_title(f"{kind}, cut {cable.cut}: {result.robots} robots", fontsize=9)
     figure.suptitle(title, fontsize=9, parse_math=False)
-    figure.legend(handles=handles, loc="outside lower center", ncols=2, **_LEGEND)
+    figure.legend(handles=handles, loc="outside lower center", ncols=2, **LEGEND)
     return figure
 
 
@@ -114,7 +114,7 @@ def check_format(path: Path) -> str:
     return suffix
 
 
-_LEGEND: dict[str, Any] = {
+LEGEND: dict[str, Any] = {
     "fontsize": 7,
     "frameon": False,
     "handletextpad": 0.4,

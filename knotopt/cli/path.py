@@ -1,0 +1,239 @@
+"""`knotopt path`: a cable's path, by the program or by the paper's relaxation."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from knotopt.cli.output import (
+    FormulationOption,
+    JsonOption,
+    KnotArgument,
+    OpennessOption,
+    PlotOption,
+    TimeLimitOption,
+    print_facts,
+    print_json,
+    print_note,
+    print_table,
+    print_written,
+)
+
+if TYPE_CHECKING:
+    from knotopt.path.result import PathResult
+    from knotopt.path.world import World
+
+METHODS = ("nlp", "relaxation", "both")
+SAMPLES = 0.05  # between the rows of a curve's file [grid steps]
+
+
+def path(
+    knot: KnotArgument,
+    supports: Annotated[
+        str,
+        typer.Option(
+            help="milp (the smallest set), lcf, all (turning points), or a .json file such as "
+            "solve --json and lcf --json print."
+        ),
+    ] = "milp",
+    method: Annotated[
+        str, typer.Option(help="nlp (the program), relaxation (the paper's springs), or both.")
+    ] = "nlp",
+    cut: Annotated[
+        str, typer.Option(help="best (for those supports; a file's own), or one: L+ L- ... row5-.")
+    ] = "best",
+    formulation: FormulationOption = "opening",
+    r: OpennessOption = None,
+    clearance: Annotated[
+        float, typer.Option(help="Smallest distance of strands in plan [grid steps].")
+    ] = 0.15,
+    opening: Annotated[
+        float, typer.Option(help="Room where a strand threads an active region [grid steps].")
+    ] = 0.25,
+    gap: Annotated[
+        float | None,
+        typer.Option(
+            help="Vertical distance at crossings [grid steps]; by default 0.3, or with --step what "
+            "a drone and its downwash need.",
+            show_default=False,
+        ),
+    ] = None,
+    slope: Annotated[float, typer.Option(help="Steepest rise, height over length in plan.")] = 1.0,
+    bending: Annotated[
+        float, typer.Option(help="Weight of bending against length [grid steps].")
+    ] = 0.04,
+    step: Annotated[
+        float | None,
+        typer.Option(help="Metres per grid step: adds lengths in metres.", show_default=False),
+    ] = None,
+    altitude: Annotated[float, typer.Option(help="With --step: of hovering robots [m].")] = 1.5,
+    floor: Annotated[float, typer.Option(help="With --step: the cable's lowest [m].")] = 0.5,
+    ceiling: Annotated[float, typer.Option(help="With --step: the cable's highest [m].")] = 2.5,
+    drone_height: Annotated[float, typer.Option(help="With --step [m].")] = 0.03,
+    downwash: Annotated[
+        float, typer.Option(help="With --step: how far below a drone it reaches [m].")
+    ] = 0.3,
+    time_limit: TimeLimitOption = None,
+    plot: PlotOption = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE.csv",
+            help="Write the curve by arc length: s,x,y,z,tx,ty,tz,curvature (in metres with "
+            "--step).",
+        ),
+    ] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Find the path of a cable held by its robots, and check it independently.
+
+    Example: knotopt path 9 --supports lcf --method both --plot path.png
+    """
+    from knotopt.catalogue.lookup import find_knot
+    from knotopt.path.optimise import optimise_path
+    from knotopt.path.relaxation import relaxed_path
+    from knotopt.path.requirements import PathRequirements
+    from knotopt.path.world import World
+    from knotopt.supports.choice import choose_supports
+    from knotopt.supports.requirements import Requirements
+
+    if method not in METHODS:
+        raise typer.BadParameter(f"is one of {', '.join(METHODS)}", param_hint="--method")
+    _check_outputs(plot, out, method)
+    asked = PathRequirements(clearance, opening, slope=slope, bending=bending)
+    world = None
+    if step is not None:
+        world = World(step, altitude, floor, ceiling, drone_height, downwash)
+        asked = world.requirements(asked)
+    if gap is not None:
+        asked = replace(asked, gap=gap)
+
+    named = find_knot(knot)
+    chosen = choose_supports(named.diagram, supports, cut, Requirements(formulation, r))
+    results: list[PathResult] = []
+    if method != "nlp":
+        results.append(relaxed_path(chosen.cable, chosen.supports, asked))
+    if method != "relaxation":
+        results.append(optimise_path(chosen.cable, chosen.supports, asked, seconds=time_limit))
+    title = f"{named.name}, cut {chosen.cable.cut}: {chosen.robots} robots ({supports})"
+    written = _write(results, title, world, plot, out)
+    if as_json:
+        print_json([_json(named.name, result, supports, world) for result in results])
+    else:
+        _show(results, title, supports, world)
+        for file in written:
+            print_written(file)
+    if any(result.blocked for result in results):
+        raise typer.Exit(1)
+
+
+def _check_outputs(plot: Path | None, out: Path | None, method: str) -> None:
+    """Wrong file names are refused before anything is solved."""
+    from knotopt.errors import OutputError
+
+    if plot is not None:
+        from knotopt.plot.figures import check_format
+
+        check_format(plot)
+    if out is not None and out.suffix.lower() != ".csv":
+        raise OutputError(f"{out}: curves are written as .csv")
+    if out is not None and method == "both":
+        raise typer.BadParameter(
+            "writes one curve: give --method nlp or relaxation", param_hint="--out"
+        )
+
+
+def _write(
+    results: list[PathResult],
+    title: str,
+    world: World | None,
+    plot: Path | None,
+    out: Path | None,
+) -> list[Path]:
+    """Write the picture and the curve; return what was written."""
+    written = []
+    if plot is not None:
+        from knotopt.plot.figures import save_figure
+        from knotopt.plot.path_figures import path_figure
+
+        save_figure(path_figure(results, title), plot)
+        written.append(plot)
+    if out is not None:
+        from knotopt.files import write_atomically
+
+        write_atomically(out, _curve_csv(results[0], world))
+        written.append(out)
+    return written
+
+
+def _show(results: list[PathResult], title: str, supports: str, world: World | None) -> None:
+    from knotopt.path.measures import HEADS, NOTE, display, measure
+
+    print(title)
+    print_table(HEADS[3:], [display(measure(result, supports))[3:] for result in results])
+    for result in results:
+        _show_one(result, world)
+    print_note(NOTE)
+
+
+def _show_one(result: PathResult, world: World | None) -> None:
+    report = result.report
+    facts: list[tuple[str, Any]] = [
+        ("method", f"{result.method}: {result.raw_status}"),
+        ("taut string", f"{result.taut_length:.2f} grid steps: no shorter path exists"),
+        ("curve", "C2 spline" if result.curve.is_smooth else "polyline"),
+        ("heights", f"{report.lowest:.2f} to {report.highest:.2f}, slope {report.steepest:.2f}"),
+    ]
+    if result.rounds:
+        solving = 1e3 * sum(each.solve_seconds for each in result.rounds)
+        iterations = sum(each.iterations for each in result.rounds)
+        words = f"{len(result.rounds)} rounds, {iterations} iterations, {solving:.0f} ms in IPOPT"
+        facts.append(("solver", words))
+    if result.blocked:
+        facts.append(("not met", result.blocked))
+    if world is not None:
+        facts += [
+            (name.replace("_", " "), f"{value:.3f} m")
+            for name, value in world.measures(result).items()
+        ]
+    print_facts(facts)
+    print()
+
+
+def _json(name: str, result: PathResult, supports: str, world: World | None) -> dict[str, Any]:
+    from knotopt.path.measures import measure
+    from knotopt.supports.support_set import place
+
+    report = result.report
+    return {
+        "knot": name,
+        **asdict(measure(result, supports)),
+        "raw_status": result.raw_status,
+        "taut_length": round(result.taut_length, 6),
+        "lowest": round(report.lowest, 6),
+        "highest": round(report.highest, 6),
+        "steepest": round(report.steepest, 6),
+        "requirements": asdict(result.requirements),
+        "placed_supports": [list(each) for each in place(result.cable, result.supports)],
+        "grid": [list(mark) for mark in result.cable.diagram.marks],
+        "rounds": [asdict(each) for each in result.rounds],
+        "steps": result.steps,
+        "metres": None if world is None else world.measures(result),
+        "points": result.curve.points.round(6).tolist(),
+    }
+
+
+def _curve_csv(result: PathResult, world: World | None) -> str:
+    """The curve by arc length, about every 0.05 grid steps."""
+    import numpy as np
+
+    curve = result.curve if world is None else world.curve(result)
+    count = int(np.ceil(result.curve.length / SAMPLES)) + 1
+    s = np.linspace(0, curve.length, count)
+    columns = np.column_stack((s, curve.position(s), curve.tangent(s), curve.curvature(s)))
+    lines = ["s,x,y,z,tx,ty,tz,curvature"]
+    lines += [",".join(f"{value:.6f}" for value in row) for row in columns.tolist()]
+    return "\n".join([*lines, ""])

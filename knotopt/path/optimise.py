@@ -1,0 +1,350 @@
+"""The path program on a cable: rounds of triangulating and solving, then a smooth curve.
+
+Each round triangulates the plane around the current path and lets the path move as long as every
+triangle stays positive, so each accepted round keeps the diagram. Between rounds vertices that the
+path no longer needs go, and others come where it bends (`remesh`).
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+from formulations.ipopt import PathStatus, Violation, solve
+from formulations.path import Bounds, PathProgram, ProgramError, Weights, doubled_areas
+from knotopt.cable.cable import Cable, IntArray
+from knotopt.errors import RequirementError
+from knotopt.path.curve import Curve
+from knotopt.path.heights import height_arcs
+from knotopt.path.mesh import Mesh, lay_mesh, robot_times
+from knotopt.path.pairs import arc_ends, crossing_corners, robot_turns, strand_pairs
+from knotopt.path.remesh import remesh
+from knotopt.path.requirements import PathRequirements
+from knotopt.path.result import (
+    NamedViolation,
+    PathResult,
+    Round,
+    examine,
+    span_name,
+    unmet,
+)
+from knotopt.path.threads import Threads, find_threads, opening_pairs
+from knotopt.path.triangulation import triangulate
+from knotopt.supports.regions import Regions
+from knotopt.verify.path import PathReport
+
+SPACING = 0.6  # of the path's vertices where it is nearly straight [grid steps]
+FINEST = 0.1  # where it bends [grid steps]
+COARSE, COARSE_ROUNDS = 2.0, 1  # the first rounds, in which the path moves far, use larger ones
+REACHES = (math.inf, math.inf, 2.0, 1.0, 1.0, 0.5, 0.5, 0.5)
+"""How far coordinates may move in each round [grid steps]."""
+OPENING_NEAR = 0.6  # openings wider than they must be by so much are left to the next round
+STEEP = 0.25  # share of the largest slope that a segment must have to be watched in a round
+FEWEST = 2  # rounds before the length is looked at
+SETTLED = 0.02  # change of the length, as a share, at which no further round is needed
+REPAIRS = 6  # rounds at most in which limits that the smooth curve misses are tightened
+OVERSHOOT = 1.5  # times what is missing, by which a limit is tightened
+GENTLEST = 0.6  # share of the largest slope that is asked for at least
+LEAST_SPACING = 0.05  # by which bending is scaled [grid steps]
+EVENNESS = 0.3  # weight of even spacing
+STIFFNESS = 1.5  # weight of lengths near nominal, against bending
+ITERATIONS = 60  # of IPOPT a round
+
+
+@dataclass(frozen=True)
+class _Limits:
+    """What the program asks for: a little more than the path must keep, as it is then smoothed."""
+
+    clearance: float
+    opening: float
+    gap: float
+    slope: float
+
+    @classmethod
+    def first(cls, asked: PathRequirements) -> _Limits:
+        return cls(
+            1.05 * asked.clearance, 1.03 * asked.opening, 1.01 * asked.gap, 0.92 * asked.slope
+        )
+
+    def tightened(self, asked: PathRequirements, report: PathReport) -> _Limits:
+        """Limits that make up for what the smooth curve lost."""
+        return _Limits(
+            self.clearance + OVERSHOOT * max(0.0, asked.clearance - report.clearance),
+            self.opening + OVERSHOOT * max(0.0, asked.opening - report.opening),
+            self.gap + OVERSHOOT * max(0.0, asked.gap - report.gap),
+            max(GENTLEST * asked.slope, self.slope * min(1.0, asked.slope / report.steepest)),
+        )
+
+
+def optimise_path(
+    cable: Cable,
+    supports: tuple[int, ...],
+    requirements: PathRequirements | None = None,
+    *,
+    seconds: float | None = None,
+) -> PathResult:
+    """The shortest smooth path with the cable's diagram that meets the requirements.
+
+    A local optimum, started from the grid path; robots stay at their turning points at height 0.
+    Every round keeps the diagram by construction, and the curve that comes out is examined by
+    independent code before it is called solved.
+
+    Parameters
+    ----------
+    cable : Cable
+    supports : tuple of int
+        Turning points with a support robot (1-based).
+    requirements : PathRequirements, optional
+    seconds : float, optional
+        Wall time after which no further round begins and IPOPT stops [s].
+
+    Raises
+    ------
+    RequirementError
+        A support that is no turning point between the ends.
+
+    Notes
+    -----
+    A round takes time about linear in the path's vertices, whose number grows like the length of
+    the cable.
+
+    Examples
+    --------
+    >>> from knotopt.catalogue.lookup import find_knot
+    >>> result = optimise_path(Cable(find_knot("3").diagram, "L+"), (3, 4, 6))
+    >>> result.status, result.report.same_diagram, result.report.same_knot
+    (<PathStatus.SOLVED: 'solved'>, True, True)
+    >>> result.stretch < 1.2
+    True
+    """
+    asked = requirements or PathRequirements()
+    if seconds is not None and not seconds > 0:
+        raise RequirementError(f"the time limit must be positive, not {seconds} s")
+    began = time.perf_counter()
+    supports = tuple(sorted(int(k) for k in supports))
+    mesh = lay_mesh(cable, supports)
+    threads = find_threads(Regions(cable), robot_times(cable, supports))
+    heights = height_arcs(mesh.times, mesh.robots, mesh.over, mesh.under, 1.05 * asked.gap)
+    mesh = mesh.moved(mesh.positions, heights)
+    blocked = _blocked_robots(mesh, asked)
+    if blocked:
+        curve, times = Curve(mesh.points, is_smooth=False), mesh.times
+        spent = time.perf_counter() - began
+        return PathResult(
+            cable,
+            supports,
+            asked,
+            "nlp",
+            PathStatus.INFEASIBLE,
+            "not started",
+            curve,
+            times,
+            spent,
+            blocked=blocked,
+        )
+    limits = _Limits.first(asked)
+    rounds: list[Round] = []
+    repairs, checking = 0, 0.0
+    while True:
+        left = math.inf if seconds is None else seconds - (time.perf_counter() - began)
+        mesh, status, record = _round(mesh, threads, asked, limits, len(rounds), left)
+        rounds.append(record)
+        in_time = seconds is None or time.perf_counter() - began < seconds
+        if in_time and not _settled(rounds):
+            continue
+        since = time.perf_counter()
+        fitted = _fit(mesh, asked)
+        checking += time.perf_counter() - since
+        if fitted.meets_all or repairs == REPAIRS or not in_time:
+            break
+        repairs += 1
+        limits = limits.tightened(asked, fitted.report)
+    if not fitted.meets_all:
+        polyline = _fit(mesh, asked, is_smooth=False)
+        if polyline.meets_all or not fitted.report.same_diagram:
+            fitted = polyline
+    # The program's own limits are tighter than what is asked, so its word is not the last one.
+    expected = PathStatus.SOLVED if fitted.meets_all else PathStatus.INFEASIBLE
+    if status is not expected:
+        status = PathStatus.STOPPED
+    result = PathResult(
+        cable,
+        supports,
+        asked,
+        "nlp",
+        status,
+        record.raw_status,
+        fitted.curve,
+        mesh.times,
+        time.perf_counter() - began - checking,
+        tuple(rounds),
+        blocked="; ".join(fitted.missed),
+    )
+    result.__dict__["report"] = fitted.report  # cached property, found already
+    return result
+
+
+@dataclass(frozen=True, eq=False)
+class _Fitted:
+    """A curve through a mesh's places, and what it does not meet."""
+
+    curve: Curve
+    report: PathReport
+    missed: list[str]
+
+    @property
+    def meets_all(self) -> bool:
+        return not self.missed
+
+
+def _fit(mesh: Mesh, asked: PathRequirements, *, is_smooth: bool = True) -> _Fitted:
+    curve = Curve(mesh.points, is_smooth)
+    report = examine(mesh.cable, mesh.supports, curve, asked)
+    along = np.concatenate(([0], np.cumsum(mesh.lengths)))
+    return _Fitted(curve, report, unmet(report, asked, along, mesh.times, mesh.cable))
+
+
+def _settled(rounds: list[Round]) -> bool:
+    """Whether the path hardly changes any more, or has had its share of rounds."""
+    if len(rounds) < FEWEST:
+        return False
+    before, after = rounds[-2].length, rounds[-1].length
+    settled = rounds[-1].accepted and abs(before - after) < SETTLED * after
+    return settled or len(rounds) >= len(REACHES)
+
+
+def _round(
+    mesh: Mesh,
+    threads: Threads,
+    asked: PathRequirements,
+    limits: _Limits,
+    number: int,
+    seconds: float,
+) -> tuple[Mesh, PathStatus, Round]:
+    """One round: the path afterwards, or as it was if a triangle flipped; and its record."""
+    began = time.perf_counter()
+    reach = REACHES[min(number, len(REACHES) - 1)]
+    if number:
+        coarse = COARSE if number < COARSE_ROUNDS else 1.0
+        mesh = remesh(mesh, threads.witness, coarse * SPACING, coarse * FINEST)
+    triangles = triangulate(mesh.positions, mesh.segments)
+    problem = _compile(mesh, triangles, threads, asked, limits, reach)
+    meshed = time.perf_counter()
+    try:
+        found = solve(
+            problem, iterations=ITERATIONS, seconds=None if math.isinf(seconds) else seconds
+        )
+    except ProgramError as error:
+        raise RequirementError(str(error)) from error
+    accepted = bool((doubled_areas(found.positions, triangles) > 0).all())
+    accepted = accepted and found.status is not PathStatus.FAILED
+    if accepted:
+        mesh = mesh.moved(found.positions, found.heights)
+    length = float(np.linalg.norm(np.diff(mesh.points, axis=0), axis=1).sum())
+    record = Round(
+        found.raw_status,
+        accepted,
+        found.iterations,
+        len(mesh.positions),
+        len(problem.triangles),
+        len(problem.strand_pairs) + len(problem.opening_pairs),
+        length,
+        meshed - began,
+        found.build_seconds,
+        found.solve_seconds,
+        tuple(_named(mesh, problem, each) for each in found.violations),
+    )
+    return mesh, found.status if accepted else PathStatus.FAILED, record
+
+
+def _compile(
+    mesh: Mesh,
+    triangles: IntArray,
+    threads: Threads,
+    asked: PathRequirements,
+    limits: _Limits,
+    reach: float,
+) -> PathProgram:
+    """The program of a round, without constraints that nothing within reach could violate."""
+    held = mesh.held
+    moving = triangles[~held[triangles].all(axis=1)]
+    if math.isfinite(reach):
+        # No triangle flips as long as each vertex moves less than half its smallest altitude.
+        corners = mesh.positions[moving]
+        longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+        altitude = doubled_areas(mesh.positions, moving) / longest
+        moving = moving[altitude <= 2 * math.sqrt(2) * reach]
+    pairs, distances = strand_pairs(mesh, triangles, limits.clearance, asked.neighbourhood)
+    openings = opening_pairs(mesh, threads, limits.opening + OPENING_NEAR)
+    held_heights = np.zeros(len(mesh.chain), dtype=bool)
+    held_heights[mesh.robots] = True
+    slopes = np.abs(np.diff(mesh.heights)) / mesh.lengths
+    return PathProgram(
+        positions=mesh.positions,
+        held=held,
+        chain=mesh.chain,
+        heights=mesh.heights,
+        held_heights=held_heights,
+        spacing=np.maximum(mesh.lengths, LEAST_SPACING),
+        triangles=moving,
+        strand_pairs=pairs,
+        strand_distances=distances,
+        opening_pairs=openings[~held[openings].all(axis=1)],
+        corners=crossing_corners(mesh),
+        turns=robot_turns(mesh),
+        arcs=arc_ends(mesh),
+        crossings=np.stack((mesh.over, mesh.under), axis=1),
+        steep=np.flatnonzero(slopes > STEEP * asked.slope),
+        bounds=Bounds(
+            limits.clearance,
+            asked.crossing_angle,
+            limits.opening,
+            limits.gap,
+            limits.slope,
+            asked.floor,
+            asked.ceiling,
+        ),
+        weights=Weights(asked.bending, EVENNESS, STIFFNESS),
+        reach=reach,
+    )
+
+
+def _named(mesh: Mesh, problem: PathProgram, violation: Violation) -> NamedViolation:
+    """A violation with the places on the cable that it is about."""
+    family, index = violation.family, violation.index
+    vertices = {
+        "diagram": problem.triangles,
+        "clearance": problem.strand_pairs,
+        "opening": problem.opening_pairs,
+        "angle": problem.corners[:, :1],
+        "turn": problem.turns[:, :1],
+        "spread": problem.arcs,
+    }
+    if family in vertices:
+        places = [np.flatnonzero(mesh.chain == vertex)[:1] for vertex in vertices[family][index]]
+        times = [mesh.times[place[0]] for place in places if len(place)]  # not the frame's
+    else:
+        place = problem.crossings[index] if family == "gap" else problem.steep[[index]]
+        times = mesh.times[place].tolist()
+    names = dict.fromkeys(span_name(mesh.cable, time) for time in times)
+    return NamedViolation(family, violation.amount, " and ".join(names))
+
+
+def _blocked_robots(mesh: Mesh, asked: PathRequirements) -> str:
+    """Two robots that stand nearer to each other than the path may come to itself, in words."""
+    places = mesh.robots
+    points = mesh.plan[places]
+    for i in range(len(places)):
+        for j in range(i + 1, len(places)):
+            distance = float(np.linalg.norm(points[i] - points[j]))
+            way = mesh.times[places[j]] - mesh.times[places[i]]
+            if distance < asked.clearance and way >= asked.neighbourhood:
+                first, second = (span_name(mesh.cable, mesh.times[places[k]]) for k in (i, j))
+                return (
+                    f"clearance {asked.clearance:g}: the robots at {first} and {second} are "
+                    f"{distance:g} apart"
+                )
+    return ""
