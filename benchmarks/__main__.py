@@ -22,6 +22,10 @@ from benchmarks import (  # noqa: F401 -- they register themselves
     formulations_growth,
     lcf_catalogue,
     lcf_growth,
+    paths_catalogue,
+    paths_growth,
+    paths_stiffness,
+    paths_tradeoff,
     solvers,
     startup,
 )
@@ -82,6 +86,9 @@ def machine_facts() -> dict[str, Any]:
         "highspy",
         "pyscipopt",
         "python-sat",
+        "casadi",
+        "pythoncdt",
+        "shapely",
     )
     return {
         "python": platform.python_version(),

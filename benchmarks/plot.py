@@ -128,8 +128,8 @@ def robots_figure(rows: list[dict[str, Any]]) -> Figure:
 
 
 def main() -> None:
-    """Write summary.md (LCF), formulations.md and the figures beside the results."""
-    from benchmarks.plot_formulations import write_parts
+    """Write summary.md (LCF), formulations.md, paths.md and the figures beside the results."""
+    from benchmarks import plot_formulations, plot_paths
 
     _, startup = load("startup")
     header, catalogue = load("lcf_catalogue")
@@ -155,10 +155,11 @@ def main() -> None:
     write_atomically(RESULTS / "summary.md", "\n\n".join(parts) + "\n")
     save_figure(robots_figure(catalogue), RESULTS / "robots.png")
     save_figure(growth_figure(growth), RESULTS / "growth.png")
-    parts, figures = write_parts()
-    write_atomically(RESULTS / "formulations.md", "\n\n".join(parts) + "\n")
-    for name, figure in figures.items():
-        save_figure(figure, RESULTS / name)
+    for page, source in (("formulations.md", plot_formulations), ("paths.md", plot_paths)):
+        parts, figures = source.write_parts()
+        write_atomically(RESULTS / page, "\n\n".join(parts) + "\n")
+        for name, figure in figures.items():
+            save_figure(figure, RESULTS / name)
 
 
 def _by_size(rows: list[dict[str, Any]], family: str, key: str) -> dict[int, list[float]]:

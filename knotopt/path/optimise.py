@@ -19,7 +19,7 @@ from knotopt.cable.cable import Cable, IntArray
 from knotopt.errors import RequirementError
 from knotopt.path.curve import Curve
 from knotopt.path.heights import height_arcs
-from knotopt.path.mesh import Mesh, lay_mesh, robot_times
+from knotopt.path.mesh import FloatArray, Mesh, lay_mesh, robot_times
 from knotopt.path.pairs import arc_ends, crossing_corners, robot_turns, strand_pairs
 from knotopt.path.remesh import remesh
 from knotopt.path.requirements import PathRequirements
@@ -41,6 +41,8 @@ FINEST = 0.1  # where it bends [grid steps]
 COARSE, COARSE_ROUNDS = 2.0, 1  # the first rounds, in which the path moves far, use larger ones
 REACHES = (math.inf, math.inf, 2.0, 1.0, 1.0, 0.5, 0.5, 0.5)
 """How far coordinates may move in each round [grid steps]."""
+REPAIR_REACH = 0.5  # the same in repairs
+FEASIBLE = 1e-4  # violations of the program below this are tolerances
 OPENING_NEAR = 0.6  # openings wider than they must be by so much are left to the next round
 STEEP = 0.25  # share of the largest slope that a segment must have to be watched in a round
 FEWEST = 2  # rounds before the length is looked at
@@ -66,7 +68,7 @@ class _Limits:
     @classmethod
     def first(cls, asked: PathRequirements) -> _Limits:
         return cls(
-            1.05 * asked.clearance, 1.03 * asked.opening, 1.01 * asked.gap, 0.92 * asked.slope
+            1.05 * asked.clearance, 1.03 * asked.opening, 1.03 * asked.gap, 0.92 * asked.slope
         )
 
     def tightened(self, asked: PathRequirements, report: PathReport) -> _Limits:
@@ -147,29 +149,39 @@ def optimise_path(
         )
     limits = _Limits.first(asked)
     rounds: list[Round] = []
+    best: _Fitted | None = None
     repairs, checking = 0, 0.0
     while True:
         left = math.inf if seconds is None else seconds - (time.perf_counter() - began)
-        mesh, status, record = _round(mesh, threads, asked, limits, len(rounds), left)
+        mesh, status, record = _round(mesh, threads, asked, limits, len(rounds), repairs, left)
         rounds.append(record)
-        in_time = seconds is None or time.perf_counter() - began < seconds
-        if in_time and not _settled(rounds):
+        stuck = not any(each.accepted for each in rounds[-2:]) and len(rounds) >= FEWEST
+        over = stuck or (seconds is not None and time.perf_counter() - began > seconds)
+        if not over and not _settled(rounds):
             continue
         since = time.perf_counter()
         fitted = _fit(mesh, asked)
+        if best is None or fitted.excess <= best.excess:
+            best = fitted
         checking += time.perf_counter() - since
-        if fitted.meets_all or repairs == REPAIRS or not in_time:
+        if fitted.meets_all or over or repairs == REPAIRS:
             break
         repairs += 1
         limits = limits.tightened(asked, fitted.report)
-    if not fitted.meets_all:
+    if not best.meets_all:
         polyline = _fit(mesh, asked, is_smooth=False)
-        if polyline.meets_all or not fitted.report.same_diagram:
-            fitted = polyline
+        best = polyline if polyline.excess < best.excess else best
     # The program's own limits are tighter than what is asked, so its word is not the last one.
-    expected = PathStatus.SOLVED if fitted.meets_all else PathStatus.INFEASIBLE
+    expected = PathStatus.SOLVED if best.meets_all else PathStatus.INFEASIBLE
     if status is not expected:
         status = PathStatus.STOPPED
+    reasons = [*best.missed]
+    if status is PathStatus.INFEASIBLE:
+        reasons += [
+            f"the program finds no way for {each.family} at {each.where}"
+            for each in record.violations
+            if each.amount > FEASIBLE
+        ]
     result = PathResult(
         cable,
         supports,
@@ -177,13 +189,13 @@ def optimise_path(
         "nlp",
         status,
         record.raw_status,
-        fitted.curve,
-        mesh.times,
+        best.curve,
+        best.times,
         time.perf_counter() - began - checking,
         tuple(rounds),
-        blocked="; ".join(fitted.missed),
+        blocked="; ".join(reasons),
     )
-    result.__dict__["report"] = fitted.report  # cached property, found already
+    result.__dict__["report"] = best.report  # cached property, found already
     return result
 
 
@@ -192,19 +204,37 @@ class _Fitted:
     """A curve through a mesh's places, and what it does not meet."""
 
     curve: Curve
+    times: FloatArray
     report: PathReport
+    asked: PathRequirements
     missed: list[str]
 
     @property
     def meets_all(self) -> bool:
         return not self.missed
 
+    @property
+    def excess(self) -> float:
+        """By how much limits are missed, as shares; inf for another diagram."""
+        if not self.missed or not self.report.same_diagram:
+            return math.inf if self.missed else 0.0
+        found, asked = self.report, self.asked
+        least = (
+            (found.clearance, asked.clearance),
+            (found.opening, asked.opening),
+            (found.gap, asked.gap),
+            (asked.slope, found.steepest),
+        )
+        return 1e-9 + sum(max(0.0, 1 - value / limit) for value, limit in least)
+
 
 def _fit(mesh: Mesh, asked: PathRequirements, *, is_smooth: bool = True) -> _Fitted:
     curve = Curve(mesh.points, is_smooth)
     report = examine(mesh.cable, mesh.supports, curve, asked)
     along = np.concatenate(([0], np.cumsum(mesh.lengths)))
-    return _Fitted(curve, report, unmet(report, asked, along, mesh.times, mesh.cable))
+    return _Fitted(
+        curve, mesh.times, report, asked, unmet(report, asked, along, mesh.times, mesh.cable)
+    )
 
 
 def _settled(rounds: list[Round]) -> bool:
@@ -222,12 +252,14 @@ def _round(
     asked: PathRequirements,
     limits: _Limits,
     number: int,
+    repairs: int,
     seconds: float,
 ) -> tuple[Mesh, PathStatus, Round]:
     """One round: the path afterwards, or as it was if a triangle flipped; and its record."""
     began = time.perf_counter()
-    reach = REACHES[min(number, len(REACHES) - 1)]
-    if number:
+    reach = REACHES[min(number, len(REACHES) - 1)] if not repairs else REPAIR_REACH
+    # What a repair mends depends on the vertices that the curve goes through: they mostly stay.
+    if number and repairs % 3 == 0:
         coarse = COARSE if number < COARSE_ROUNDS else 1.0
         mesh = remesh(mesh, threads.witness, coarse * SPACING, coarse * FINEST)
     triangles = triangulate(mesh.positions, mesh.segments)
@@ -239,8 +271,9 @@ def _round(
         )
     except ProgramError as error:
         raise RequirementError(str(error)) from error
-    accepted = bool((doubled_areas(found.positions, triangles) > 0).all())
-    accepted = accepted and found.status is not PathStatus.FAILED
+    accepted = found.status in (PathStatus.SOLVED, PathStatus.STOPPED) and bool(
+        (doubled_areas(found.positions, triangles) > 0).all()
+    )
     if accepted:
         mesh = mesh.moved(found.positions, found.heights)
     length = float(np.linalg.norm(np.diff(mesh.points, axis=0), axis=1).sum())
@@ -257,7 +290,7 @@ def _round(
         found.solve_seconds,
         tuple(_named(mesh, problem, each) for each in found.violations),
     )
-    return mesh, found.status if accepted else PathStatus.FAILED, record
+    return mesh, found.status, record
 
 
 def _compile(
