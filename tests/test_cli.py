@@ -23,7 +23,7 @@ def test_help_names_every_command_and_each_has_an_example(cli: Cli) -> None:
     status, out, _ = cli("--help")
     assert status == 0
     for command in (
-        *("knots", "show", "lcf", "solve", "compare", "prove", "check", "table1", "doctor"),
+        *("knots", "show", "lcf", "solve", "path", "compare", "prove", "check", "table1", "doctor"),
     ):
         assert command in out
         status, text, _ = cli(command, "--help")
@@ -106,12 +106,20 @@ def test_table1_json_has_the_columns_of_the_csv(cli: Cli, tmp_path: Path) -> Non
     with (tmp_path / "table1.csv").open(newline="") as stream:
         reader = csv.DictReader(stream)
         stored = list(reader)
-        assert reader.fieldnames == list(rows[0])
+        assert [*(reader.fieldnames or ()), "paths"] == list(rows[0])
     assert [json.loads(row["supports"]) for row in stored] == [row["supports"] for row in rows]
     markdown = (tmp_path / "table1.md").read_text()
     assert markdown.count("\n| ") >= 6 and NOTE in markdown
     figures = sorted(path.name for path in (tmp_path / "figures").iterdir())
-    assert len(figures) == 12 and "table1_7_Var1_7_2_minimal.png" in figures
+    assert len(figures) == 30 and "table1_7_Var1_7_2_minimal.png" in figures
+    assert {"table1_9_9_2_fig5.png", "table1_9_9_2_fig7.png", "table1_9_9_2_path.png"} < {*figures}
+    with (tmp_path / "table1_paths.csv").open(newline="") as stream:
+        paths = list(csv.DictReader(stream))
+    assert [path["method"] for path in paths] == ["relaxation", "nlp"] * 6
+    assert {path["same_diagram"] for path in paths} == {"True"}
+    lengths = [float(path["length"]) for path in paths]
+    assert all(ours < relaxed for relaxed, ours in zip(lengths[::2], lengths[1::2], strict=True))
+    assert (tmp_path / "table1_paths.md").read_text().count("\n| ") == 13
 
 
 def test_table1_over_all_grids(cli: Cli, tmp_path: Path) -> None:
@@ -126,6 +134,8 @@ def test_table1_is_written_the_same_every_time(cli: Cli, tmp_path: Path) -> None
     for run in "ab":
         cli("table1", "--out", tmp_path / run)
     for path in (tmp_path / "a").rglob("*.*"):
+        if path.stem == "table1_paths":
+            continue  # these have milliseconds
         assert path.read_bytes() == (tmp_path / "b" / path.relative_to(tmp_path / "a")).read_bytes()
 
 

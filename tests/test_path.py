@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from strategies import cables
 
 from formulations.ipopt import PathStatus, solve
 from formulations.path import Bounds, PathProgram, ProgramError, Weights, doubled_areas
@@ -31,7 +32,6 @@ from knotopt.path.remesh import remesh
 from knotopt.path.result import TOLERANCE, examine, span_name
 from knotopt.path.triangulation import triangulate
 from knotopt.verify.crossings import curve_crossings, grid_code
-from tests.strategies import cables
 
 ROWS = ("3", "4", "5", "7 Var1", "7 Var2", "9")
 

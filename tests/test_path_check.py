@@ -7,6 +7,8 @@ import pytest
 import snappy
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from outside import seifert_invariants
+from strategies import cables
 
 from knotopt import Cable, Curve, best_cut, check_path, find_knot, optimise_path, shipped_knots
 from knotopt.cable.alexander import alexander_from_gauss, alexander_polynomial
@@ -14,8 +16,6 @@ from knotopt.path.result import FINE, robot_points
 from knotopt.verify.alexander import POINTS, PRIME, alexander_values
 from knotopt.verify.crossings import curve_crossings, grid_code
 from knotopt.verify.path import alexander_of, closed_code, resample
-from tests.outside import seifert_invariants
-from tests.strategies import cables
 
 
 def value(polynomial: tuple[int, ...], t: int) -> int:

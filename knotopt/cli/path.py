@@ -183,7 +183,7 @@ def _show_one(result: PathResult, world: World | None) -> None:
     report = result.report
     facts: list[tuple[str, Any]] = [
         ("method", f"{result.method}: {result.raw_status}"),
-        ("taut string", f"{result.taut_length:.2f} grid steps: no shorter path exists"),
+        ("taut string", f"{result.taut_length:.2f} grid steps, a lower bound"),
         ("curve", "C2 spline" if result.curve.is_smooth else "polyline"),
         ("heights", f"{report.lowest:.2f} to {report.highest:.2f}, slope {report.steepest:.2f}"),
     ]

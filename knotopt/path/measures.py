@@ -31,8 +31,8 @@ HEADS = (
 )
 NOTE = """\
 Paths of the relaxation (eq. 11-13 of the paper) and of the program on the same supports. Lengths \
-are in grid steps, in space; "/ taut" divides by the taut string through the robots, which no path \
-that keeps the diagram can beat; then the smallest turning radius, distance of strands in plan, \
+are in grid steps, in space; "/ taut" divides by the taut string, the shortest curve that passes \
+the robots on the same sides; then the smallest turning radius, distance of strands in plan, \
 room where a strand threads an active region, and vertical distance at crossings. "Same knot": \
 yes if the path has the grid's diagram, "knot" if only its Alexander polynomial is the grid's, no \
 if neither. Everything is measured on the finished curve by code that shares nothing with what \

@@ -22,6 +22,7 @@ from knotopt.path.mesh import FloatArray, robot_times
 from knotopt.path.requirements import PathRequirements
 from knotopt.path.result import PathResult
 
+ASTRAY = 10.0  # times the grid's size, beyond which a node has gone astray
 NEAR_ZERO = 1e-9  # shorter vectors have no direction
 
 
@@ -196,7 +197,8 @@ def relaxed_path(
     supports = tuple(sorted(int(k) for k in supports))
     run = relax(cable, supports, parameters)
     final = run.trajectory[-1]
-    finite = np.isfinite(final).all()
+    far = ASTRAY * cable.diagram.size
+    finite = bool(np.isfinite(final).all()) and float(np.abs(final).max()) < far
     if not finite:
         final = run.trajectory[0]
     curve, times = with_arcs(cable, supports, final, run.times, asked.gap)

@@ -2,8 +2,9 @@
 
 Between two consecutive robots the cable may be deformed freely in the plane without the other
 robots; the shortest curve of its homotopy class, in which a robot may be touched, is what the cable
-becomes when pulled tight with its own strands passing through each other. No path that keeps the
-diagram, and leaves the robots where they are, is shorter in plan, let alone in space.
+becomes when pulled tight with its own strands passing through each other. No path that passes the
+robots on the same sides, as one does that is deformed with its diagram while they stay where they
+are, is shorter in plan, let alone in space.
 
 The span's class is read off the edges of a triangulation of the robots that it crosses; the
 shortest curve through those edges is found by the funnel algorithm (Lee and Preparata,
@@ -61,7 +62,7 @@ def taut_string(cable: Cable, supports: tuple[int, ...]) -> list[FloatArray]:
 
 
 def taut_length(cable: Cable, supports: tuple[int, ...]) -> float:
-    """Length of the taut string [grid steps]: no path that keeps the diagram is shorter."""
+    """Length of the taut string [grid steps], a lower bound of every path in its class."""
     return float(
         sum(
             np.linalg.norm(np.diff(span, axis=0), axis=1).sum()
