@@ -12,6 +12,7 @@ from benchmarks.plot import FAMILIES, load
 from knotopt.plot.figures import PANEL
 
 Rows = list[dict[str, Any]]
+DONE = ("solved", "converged")
 SMALL = 11  # grids up to this size are those of which a time is asked
 METHODS = {"relaxation": "#999999", "nlp": "#0072B2"}
 
@@ -37,7 +38,7 @@ def catalogue_table(rows: Rows) -> str:
             )
             lines.append(
                 f"| {supports} | {method} | {len(paths)} "
-                f"| {sum(p['status'] == 'solved' for p in paths)} "
+                f"| {sum(p['status'] in DONE for p in paths)} "
                 f"| {sum(p['same_diagram'] for p in paths)} "
                 f"| {sum(not p['same_knot'] for p in paths)} "
                 f"| {lost} "
@@ -125,7 +126,7 @@ def stiffness_table(rows: Rows) -> str:
             groups[path["stiffness"]].append(path)
     for stiffness, paths in groups.items():
         lines.append(
-            f"| {stiffness:g} | {sum(p['status'] == 'solved' for p in paths)} "
+            f"| {stiffness:g} | {sum(p['status'] in DONE for p in paths)} "
             f"| {sum(p['same_diagram'] for p in paths)} "
             f"| {sum(not p['same_knot'] for p in paths)} "
             f"| {median(p['stretch'] for p in paths):.3f} |"

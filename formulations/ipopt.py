@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import signal
+import threading
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -91,6 +95,11 @@ def solve(
         Wall time [s].
     **settings
         Further settings of IPOPT, such as `tol`.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        Ctrl-C was pressed, once IPOPT has ended.
     """
     began = time.perf_counter()
     layout = Layout(program)
@@ -111,14 +120,15 @@ def solve(
     parameters += [numbers.ravel() for _, _, numbers, _ in constraints]
     lower = [bound for _, _, _, bound in constraints]
     low, high = _box(program, layout)
-    found = solver(
-        x0=layout.start[~layout.is_fixed],
-        p=np.concatenate(parameters),
-        lbg=np.concatenate([*lower, []]),
-        ubg=np.inf,
-        lbx=low,
-        ubx=high,
-    )
+    with _interrupts_held_back():
+        found = solver(
+            x0=layout.start[~layout.is_fixed],
+            p=np.concatenate(parameters),
+            lbg=np.concatenate([*lower, []]),
+            ubg=np.inf,
+            lbx=low,
+            ubx=high,
+        )
     ended = time.perf_counter()
     raw = solver.stats()["return_status"]
     x = np.asarray(found["x"]).ravel()
@@ -153,6 +163,22 @@ IPOPT = {
     "mumps_scaling": 0,
     "mumps_permuting_scaling": 0,
 }
+
+
+@contextmanager
+def _interrupts_held_back() -> Iterator[None]:
+    """Ctrl-C takes effect at the end: CasADi would take it for a failed evaluation, and go on."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    pressed = []
+    before = signal.signal(signal.SIGINT, lambda *_: pressed.append(True))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+    if pressed:
+        raise KeyboardInterrupt
 
 
 def _box(program: PathProgram, layout: Layout) -> tuple[FloatArray, FloatArray]:

@@ -80,8 +80,10 @@ def test_worlds_that_make_no_sense(wrong: dict[str, float], words: str) -> None:
 
 
 def test_a_room_too_low_for_the_gap() -> None:
-    with pytest.raises(RequirementError, match="no room for a gap"):
-        World(step=0.5, floor=1.4, ceiling=1.6).requirements(PathRequirements())
+    with pytest.raises(RequirementError, match=r"no room for a gap of 0.33 m"):
+        World(step=0.5, floor=1.4, ceiling=1.6)
+    with pytest.raises(RequirementError, match="need some height"):
+        World(step=0.5, drone_height=0, downwash=0)
 
 
 @pytest.mark.parametrize(

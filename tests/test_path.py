@@ -107,13 +107,14 @@ def test_more_bending_weight_bends_less() -> None:
     assert lengths == sorted(lengths)
 
 
-def test_robots_too_near_to_each_other_are_named() -> None:
-    cable = Cable(find_knot("9").diagram, "L+")
+def test_what_the_robots_leave_no_room_for_is_named() -> None:
+    """With a robot at every turning point no opening is wider than the grid's cells."""
+    cable = Cable(find_knot("5").diagram, "L+")
     every = tuple(range(2, len(cable.path)))
-    result = optimise_path(cable, every, PathRequirements(clearance=1.6))
-    assert result.status is PathStatus.INFEASIBLE and not result.rounds
-    assert result.blocked == "clearance 1.6: the robots at p1 and p18 are 1.41421 apart"
-    assert result.report.same_diagram and not result.curve.is_smooth
+    result = optimise_path(cable, every, PathRequirements(opening=1.5))
+    assert result.status in (PathStatus.INFEASIBLE, PathStatus.STOPPED)
+    assert result.blocked.startswith("opening 0.99") and "< 1.5 in loop [2,6]" in result.blocked
+    assert result.report.same_diagram and result.report.clearance > 0.15
 
 
 def test_limits_that_cannot_be_met_name_the_pair() -> None:
@@ -143,12 +144,13 @@ def test_a_time_limit_leaves_a_path_that_keeps_the_knot() -> None:
         ((1,), "no support robot can be at p1: those of this cable are p2 to p9"),
         ((10,), "p10"),
         ((3, 3), "two support robots at p3"),
+        ((3, 4.5), "no support robot can be at p4.5"),
     ],
 )
-def test_supports_that_are_no_turning_points(supports: tuple[int, ...], words: str) -> None:
+def test_supports_that_are_no_turning_points(supports: tuple[float, ...], words: str) -> None:
     cable = Cable(find_knot("3").diagram, "L+")
     with pytest.raises(RequirementError, match=words):
-        optimise_path(cable, supports)
+        optimise_path(cable, supports)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
@@ -159,7 +161,8 @@ def test_supports_that_are_no_turning_points(supports: tuple[int, ...], words: s
         ({"opening": math.inf}, "opening must be a finite number"),
         ({"bending": "much"}, "bending must be a finite number"),
         ({"floor": 0.5}, "robots hover at height 0"),
-        ({"gap": 3.0}, "no room for a gap of 3.0"),
+        ({"clearance": 11}, "clearance 11 is more than 10 grid steps"),
+        ({"gap": 3.0}, "no room for a gap of 3"),
     ],
 )
 def test_requirements_that_make_no_sense(wrong: dict[str, float], words: str) -> None:

@@ -152,6 +152,26 @@ def test_points_that_are_no_path(points: np.ndarray, words: str) -> None:
         check_path(points, [(1, 1), (2, 1)], np.zeros((2, 3)), 0.6)
 
 
+def test_neighbourhoods_large_and_small() -> None:
+    there = np.column_stack((np.linspace(0, 30, 601), np.zeros(601), np.zeros(601)))
+    points = np.concatenate((there, there[::-1] + np.array([0, 0.3, 0])))
+    path = [(1, 1), (31, 1), (31, 5), (1, 5)]
+    for neighbourhood in (0.7, 20.0):
+        report = check_path(points, path, points[[0, -1]], neighbourhood)
+        assert report.clearance == pytest.approx(0.3, abs=1e-3)
+    for wrong in (0.0, -1.0, float("nan")):
+        with pytest.raises(ValueError, match="the neighbourhood is a positive length"):
+            check_path(points, path, points[[0, -1]], wrong)
+
+
+def test_strands_near_a_robot() -> None:
+    points = np.array([[0.0, 0, 0], [4, 0, 0], [4, 0.5, 0.2], [-3, 0.5, 0.2]])
+    dense = Curve(points, is_smooth=False).sample(0.01)
+    path = [(1, 1), (2, 1)]
+    report = check_path(dense, path, points[[0, -1]], 0.6)
+    assert report.nearest_to_a_robot == pytest.approx(np.hypot(0.5, 0.2), abs=0.01)
+
+
 def test_strands_that_touch_are_refused() -> None:
     touching = np.array([[0.0, 0, 0], [2, 0, 0], [2, 2, 0], [1, 2, 0], [1, 0, 0], [0, -1, 0]])
     with pytest.raises(ValueError, match="touch in a vertex, near"):

@@ -13,7 +13,18 @@ EXTRAS = {
     "scip": "pyscipopt",
     "sat": "python-sat",
 }
-PACKAGES = ("knotopt", "numpy", "scipy", "networkx", "casadi", "cvxpy", "highspy", "ortools")
+PACKAGES = (
+    "knotopt",
+    "numpy",
+    "scipy",
+    "networkx",
+    "shapely",
+    "pythoncdt",
+    "casadi",
+    "cvxpy",
+    "highspy",
+    "ortools",
+)
 
 
 def doctor(as_json: JsonOption = False) -> None:

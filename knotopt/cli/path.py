@@ -35,8 +35,8 @@ def path(
     supports: Annotated[
         str,
         typer.Option(
-            help="milp (the smallest set), lcf, all (turning points), or a .json file such as "
-            "solve --json and lcf --json print."
+            help="milp (the provably smallest set), lcf, all (turning points), or a .json file "
+            "such as solve --json and lcf --json print."
         ),
     ] = "milp",
     method: Annotated[
@@ -56,8 +56,8 @@ def path(
     gap: Annotated[
         float | None,
         typer.Option(
-            help="Vertical distance at crossings [grid steps]; by default 0.3, or with --step what "
-            "a drone and its downwash need.",
+            help="Vertical distance at crossings [grid steps]; 0.3. With --step it is what a drone "
+            "and its downwash need.",
             show_default=False,
         ),
     ] = None,
@@ -69,13 +69,27 @@ def path(
         float | None,
         typer.Option(help="Metres per grid step: adds lengths in metres.", show_default=False),
     ] = None,
-    altitude: Annotated[float, typer.Option(help="With --step: of hovering robots [m].")] = 1.5,
-    floor: Annotated[float, typer.Option(help="With --step: the cable's lowest [m].")] = 0.5,
-    ceiling: Annotated[float, typer.Option(help="With --step: the cable's highest [m].")] = 2.5,
-    drone_height: Annotated[float, typer.Option(help="With --step [m].")] = 0.03,
+    altitude: Annotated[
+        float | None,
+        typer.Option(help="With --step: of hovering robots [m]; 1.5.", show_default=False),
+    ] = None,
+    floor: Annotated[
+        float | None,
+        typer.Option(help="With --step: the cable's lowest [m]; 0.5.", show_default=False),
+    ] = None,
+    ceiling: Annotated[
+        float | None,
+        typer.Option(help="With --step: the cable's highest [m]; 2.5.", show_default=False),
+    ] = None,
+    drone_height: Annotated[
+        float | None, typer.Option(help="With --step [m]; 0.03.", show_default=False)
+    ] = None,
     downwash: Annotated[
-        float, typer.Option(help="With --step: how far below a drone it reaches [m].")
-    ] = 0.3,
+        float | None,
+        typer.Option(
+            help="With --step: how far below a drone it reaches [m]; 0.3.", show_default=False
+        ),
+    ] = None,
     time_limit: TimeLimitOption = None,
     plot: PlotOption = None,
     out: Annotated[
@@ -83,7 +97,7 @@ def path(
         typer.Option(
             metavar="FILE.csv",
             help="Write the curve by arc length: s,x,y,z,tx,ty,tz,curvature (in metres with "
-            "--step).",
+            "--step); not with --method both.",
         ),
     ] = None,
     as_json: JsonOption = False,
@@ -96,17 +110,27 @@ def path(
     from knotopt.path.optimise import optimise_path
     from knotopt.path.relaxation import relaxed_path
     from knotopt.path.requirements import PathRequirements
-    from knotopt.path.world import World
     from knotopt.supports.choice import choose_supports
     from knotopt.supports.requirements import Requirements
 
     if method not in METHODS:
         raise typer.BadParameter(f"is one of {', '.join(METHODS)}", param_hint="--method")
     _check_outputs(plot, out, method)
+    if supports != "milp" and (r is not None or formulation != "opening"):
+        raise typer.BadParameter(
+            "goes with --supports milp", param_hint="--formulation" if r is None else "--r"
+        )
     asked = PathRequirements(clearance, opening, slope=slope, bending=bending)
-    world = None
-    if step is not None:
-        world = World(step, altitude, floor, ceiling, drone_height, downwash)
+    every = {
+        "altitude": altitude,
+        "floor": floor,
+        "ceiling": ceiling,
+        "drone_height": drone_height,
+        "downwash": downwash,
+    }
+    room = {name: value for name, value in every.items() if value is not None}
+    world = _world(step, room, gap)
+    if world is not None:
         asked = world.requirements(asked)
     if gap is not None:
         asked = replace(asked, gap=gap)
@@ -121,13 +145,30 @@ def path(
     title = f"{named.name}, cut {chosen.cable.cut}: {chosen.robots} robots ({supports})"
     written = _write(results, title, world, plot, out)
     if as_json:
-        print_json([_json(named.name, result, supports, world) for result in results])
+        content = [_json(named.name, result, supports, world) for result in results]
+        print_json(content if len(content) > 1 else content[0])
     else:
         _show(results, title, supports, world)
         for file in written:
             print_written(file)
-    if any(result.blocked for result in results):
+    if results[-1].blocked:
         raise typer.Exit(1)
+
+
+def _world(step: float | None, room: dict[str, float], gap: float | None) -> World | None:
+    """The world that the options describe, if any."""
+    from knotopt.path.world import World
+
+    if step is not None and gap is not None:
+        raise typer.BadParameter(
+            "is in grid steps; with --step it follows from --drone-height and --downwash",
+            param_hint="--gap",
+        )
+    if step is None and room:
+        raise typer.BadParameter(
+            "goes with --step", param_hint="--" + next(iter(room)).replace("_", "-")
+        )
+    return None if step is None else World(step, **room)
 
 
 def _check_outputs(plot: Path | None, out: Path | None, method: str) -> None:
@@ -217,7 +258,9 @@ def _json(name: str, result: PathResult, supports: str, world: World | None) -> 
         "highest": round(report.highest, 6),
         "steepest": round(report.steepest, 6),
         "requirements": asdict(result.requirements),
-        "placed_supports": [list(each) for each in place(result.cable, result.supports)],
+        "chosen_by": supports,
+        "supports": [list(each) for each in place(result.cable, result.supports)],
+        "path": [list(mark) for mark in result.cable.path],
         "grid": [list(mark) for mark in result.cable.diagram.marks],
         "rounds": [asdict(each) for each in result.rounds],
         "steps": result.steps,

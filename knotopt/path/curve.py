@@ -46,7 +46,8 @@ class Curve:
     is_smooth: bool
 
     def __post_init__(self) -> None:
-        points = self.points
+        points = np.asarray(self.points, dtype=np.float64)
+        object.__setattr__(self, "points", points)
         if points.ndim != 2 or points.shape[1] != 3 or len(points) < 2:
             raise RequirementError(f"a curve needs two points [x, y, z], not {points.shape}")
         for k in np.flatnonzero(~np.isfinite(points).all(axis=1)).tolist():
@@ -68,7 +69,7 @@ class Curve:
         return np.concatenate(([0], np.cumsum(pieces)))
 
     def position(self, s: float | FloatArray) -> FloatArray:
-        """Position at arc length s, shape (..., 3)."""
+        """Position at arc length s, which is clipped to [0, length], shape (..., 3)."""
         return np.asarray(self._spline(self._parameter(s)))
 
     def tangent(self, s: float | FloatArray) -> FloatArray:

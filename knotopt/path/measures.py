@@ -32,8 +32,9 @@ HEADS = (
 NOTE = """\
 Paths of the relaxation (eq. 11-13 of the paper) and of the program on the same supports. Lengths \
 are in grid steps, in space; "/ taut" divides by the taut string, the shortest curve that passes \
-the robots on the same sides; then the smallest turning radius, distance of strands in plan, \
-room where a strand threads an active region, and vertical distance at crossings. "Same knot": \
+the robots on the same sides; then the smallest turning radius, distance of strands in plan \
+(between points whose way along the cable is four times the clearance asked for, or longer), room \
+where a strand threads an active region, and vertical distance at crossings. "Same knot": \
 yes if the path has the grid's diagram, "knot" if only its Alexander polynomial is the grid's, no \
 if neither. Everything is measured on the finished curve by code that shares nothing with what \
 made it."""
@@ -76,7 +77,7 @@ def measure(result: PathResult, supports: str) -> PathMeasures:
         str(result.cable.cut),
         len(result.supports) + 2,
         result.method,
-        str(result.status),
+        status_word(result),
         round(result.curve.length, 4),
         round(result.stretch, 4),
         round(report.smallest_radius, 4),
@@ -89,6 +90,14 @@ def measure(result: PathResult, supports: str) -> PathMeasures:
         result.blocked,
         round(1e3 * result.seconds, 1),
     )
+
+
+def status_word(result: PathResult) -> str:
+    """What came of a path; the relaxation solves nothing, it converges or not."""
+    if result.method == "nlp":
+        return str(result.status)
+    words = {PathStatus.SOLVED: "converged", PathStatus.STOPPED: "not converged"}
+    return words.get(result.status, str(result.status))
 
 
 def both_methods(
@@ -114,7 +123,7 @@ def display(row: PathMeasures) -> list[str]:
         row.cut,
         str(row.robots),
         row.method,
-        "not converged" if row.method != "nlp" and row.status == PathStatus.STOPPED else row.status,
+        row.status,
         length(row.length, 2),
         length(row.stretch),
         length(row.smallest_radius),
@@ -129,7 +138,7 @@ def display(row: PathMeasures) -> list[str]:
 SUMMARY_HEADS = (
     "supports",
     "method",
-    "solved",
+    "done",
     "same knot",
     "/ taut",
     "radius",
@@ -153,7 +162,7 @@ def summary(paths: Iterable[PathMeasures]) -> list[list[str]]:
             return f"{median(known):.{digits}f}" if known else "-"
 
         count = len(group)
-        solved = sum(path.status == PathStatus.SOLVED for path in group)
+        solved = sum(path.status in ("solved", "converged") for path in group)
         same = sum(path.same_diagram for path in group)
         rows.append(
             [

@@ -42,8 +42,19 @@ COARSE, COARSE_ROUNDS = 2.0, 1  # the first rounds, in which the path moves far,
 REACHES = (math.inf, math.inf, 2.0, 1.0, 1.0, 0.5, 0.5, 0.5)
 """How far coordinates may move in each round [grid steps]."""
 REPAIR_REACH = 0.5  # the same in repairs
-FEASIBLE = 1e-4  # violations of the program below this are tolerances
+FEASIBLE = 1e-3  # violations of the program below this are tolerances
 OPENING_NEAR = 0.6  # openings wider than they must be by so much are left to the next round
+WORDS = {
+    "diagram": "diagram",
+    "clearance": "clearance",
+    "angle": "angle between strands",
+    "spread": "distance of crossings",
+    "turn": "angle at a robot",
+    "opening": "opening",
+    "gap": "gap",
+    "slope": "slope",
+}
+"""The families of constraints for people."""
 STEEP = 0.25  # share of the largest slope that a segment must have to be watched in a round
 FEWEST = 2  # rounds before the length is looked at
 SETTLED = 0.02  # change of the length, as a share, at which no further round is needed
@@ -126,27 +137,10 @@ def optimise_path(
     if seconds is not None and not seconds > 0:
         raise RequirementError(f"the time limit must be positive, not {seconds} s")
     began = time.perf_counter()
-    supports = tuple(sorted(int(k) for k in supports))
     mesh = lay_mesh(cable, supports)
     threads = find_threads(Regions(cable), robot_times(cable, supports))
     heights = height_arcs(mesh.times, mesh.robots, mesh.over, mesh.under, 1.05 * asked.gap)
     mesh = mesh.moved(mesh.positions, heights)
-    blocked = _blocked_robots(mesh, asked)
-    if blocked:
-        curve, times = Curve(mesh.points, is_smooth=False), mesh.times
-        spent = time.perf_counter() - began
-        return PathResult(
-            cable,
-            supports,
-            asked,
-            "nlp",
-            PathStatus.INFEASIBLE,
-            "not started",
-            curve,
-            times,
-            spent,
-            blocked=blocked,
-        )
     limits = _Limits.first(asked)
     rounds: list[Round] = []
     best: _Fitted | None = None
@@ -155,7 +149,7 @@ def optimise_path(
         left = math.inf if seconds is None else seconds - (time.perf_counter() - began)
         mesh, status, record = _round(mesh, threads, asked, limits, len(rounds), repairs, left)
         rounds.append(record)
-        stuck = not any(each.accepted for each in rounds[-2:]) and len(rounds) >= FEWEST
+        stuck = not any(each.is_solved for each in rounds[-2:]) and len(rounds) >= FEWEST
         over = stuck or (seconds is not None and time.perf_counter() - began > seconds)
         if not over and not _settled(rounds):
             continue
@@ -178,13 +172,13 @@ def optimise_path(
     reasons = [*best.missed]
     if status is PathStatus.INFEASIBLE:
         reasons += [
-            f"the program finds no way for {each.family} at {each.where}"
+            f"the program finds no way for the {WORDS[each.family]} at {each.where}"
             for each in record.violations
             if each.amount > FEASIBLE
         ]
     result = PathResult(
         cable,
-        supports,
+        mesh.supports,
         asked,
         "nlp",
         status,
@@ -271,8 +265,11 @@ def _round(
         )
     except ProgramError as error:
         raise RequirementError(str(error)) from error
-    accepted = found.status in (PathStatus.SOLVED, PathStatus.STOPPED) and bool(
-        (doubled_areas(found.positions, triangles) > 0).all()
+    feasible = all(each.amount < FEASIBLE for each in found.violations)
+    accepted = (
+        (found.status is PathStatus.SOLVED or (found.status is PathStatus.STOPPED and feasible))
+        and bool((doubled_areas(found.positions, triangles) > 0).all())
+        and bool((found.heights[mesh.over] > found.heights[mesh.under]).all())
     )
     if accepted:
         mesh = mesh.moved(found.positions, found.heights)
@@ -280,6 +277,7 @@ def _round(
     record = Round(
         found.raw_status,
         accepted,
+        accepted and found.status is PathStatus.SOLVED,
         found.iterations,
         len(mesh.positions),
         len(problem.triangles),
@@ -364,20 +362,3 @@ def _named(mesh: Mesh, problem: PathProgram, violation: Violation) -> NamedViola
         times = mesh.times[place].tolist()
     names = dict.fromkeys(span_name(mesh.cable, time) for time in times)
     return NamedViolation(family, violation.amount, " and ".join(names))
-
-
-def _blocked_robots(mesh: Mesh, asked: PathRequirements) -> str:
-    """Two robots that stand nearer to each other than the path may come to itself, in words."""
-    places = mesh.robots
-    points = mesh.plan[places]
-    for i in range(len(places)):
-        for j in range(i + 1, len(places)):
-            distance = float(np.linalg.norm(points[i] - points[j]))
-            way = mesh.times[places[j]] - mesh.times[places[i]]
-            if distance < asked.clearance and way >= asked.neighbourhood:
-                first, second = (span_name(mesh.cable, mesh.times[places[k]]) for k in (i, j))
-                return (
-                    f"clearance {asked.clearance:g}: the robots at {first} and {second} are "
-                    f"{distance:g} apart"
-                )
-    return ""

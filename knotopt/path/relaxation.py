@@ -20,7 +20,7 @@ from knotopt.errors import RequirementError
 from knotopt.path.arcs import with_arcs
 from knotopt.path.mesh import FloatArray, robot_times
 from knotopt.path.requirements import PathRequirements
-from knotopt.path.result import PathResult
+from knotopt.path.result import PathResult, examine, unmet
 
 ASTRAY = 10.0  # times the grid's size, beyond which a node has gone astray
 NEAR_ZERO = 1e-9  # shorter vectors have no direction
@@ -83,6 +83,8 @@ class Relaxation:
                 raise RequirementError(
                     f"{field.name} of the relaxation must be a positive number, not {value!r}"
                 )
+            if field.name.endswith("_steps") and value != int(value):
+                raise RequirementError(f"{field.name} of the relaxation are counted, not {value}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,7 +150,7 @@ def relax(
     rest = np.linalg.norm(start[:, None] - start[None], axis=2)
     trajectory = [start]
     converged = False
-    for done in range(1, asked.most_steps + 1):
+    for done in range(1, int(asked.most_steps) + 1):
         force = _spring_forces(position, velocity, rest, asked)
         if straighten:
             force += asked.alpha * straightening(position, asked.straight)
@@ -194,8 +196,8 @@ def relaxed_path(
     """
     asked = requirements or PathRequirements()
     began = time.perf_counter()
-    supports = tuple(sorted(int(k) for k in supports))
     run = relax(cable, supports, parameters)
+    supports = tuple(sorted(supports))
     final = run.trajectory[-1]
     far = ASTRAY * cable.diagram.size
     finite = bool(np.isfinite(final).all()) and float(np.abs(final).max()) < far
@@ -204,18 +206,25 @@ def relaxed_path(
     curve, times = with_arcs(cable, supports, final, run.times, asked.gap)
     status = PathStatus.SOLVED if run.converged else PathStatus.STOPPED
     words = "converged" if run.converged else f"not converged in {run.steps} steps"
-    return PathResult(
+    spent = time.perf_counter() - began
+    report = examine(cable, supports, curve, asked)
+    steps = np.linalg.norm(np.diff(curve.points[:, :2], axis=0), axis=1)
+    along = np.concatenate(([0], np.cumsum(steps)))
+    result = PathResult(
         cable,
         supports,
         asked,
         "relaxation",
         status if finite else PathStatus.FAILED,
-        words if finite else f"diverged in {run.steps} steps",
+        words if finite else f"diverged in {run.steps} steps: the grid path",
         curve,
         times,
-        time.perf_counter() - began,
+        spent,
         steps=run.steps,
+        blocked="; ".join(unmet(report, asked, along, times, cable)),
     )
+    result.__dict__["report"] = report  # cached property, found already
+    return result
 
 
 def straightening(position: FloatArray, straight: float) -> FloatArray:

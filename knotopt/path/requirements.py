@@ -12,6 +12,8 @@ NEIGHBOURHOOD = 4.0
 at crossings, is longer than so many clearances. Strands that are `clearance` apart at that distance
 leave a crossing at an angle of at least 2 asin(1 / NEIGHBOURHOOD) = 29 degrees."""
 
+LARGEST = 10.0  # of clearance, opening and gap that are considered [grid steps]
+
 
 @dataclass(frozen=True)
 class PathRequirements:
@@ -27,13 +29,13 @@ class PathRequirements:
     gap : float
         Smallest vertical distance between the strands at a crossing.
     slope : float
-        Steepest rise or fall of the cable, height over length in plan.
+        Steepest rise or fall of the cable, height over length in plan, on stretches of 0.1.
     floor, ceiling : float
         Lowest and highest the cable may get; robots hover at height 0.
     bending : float
         Weight of the bending, the integral of the squared curvature along the cable, against its
         length [grid steps]: a straight span and a circle of radius r trade length 2 pi r against
-        bending 2 pi / r, so bends have radii of about sqrt(bending).
+        bending 2 pi / r, so free bends have radii of up to sqrt(bending).
 
     Raises
     ------
@@ -66,15 +68,20 @@ class PathRequirements:
             if value <= 0:
                 unit = "" if name == "slope" else " of grid steps"
                 raise RequirementError(f"{name} must be a positive number{unit}, not {value}")
+        for name in ("clearance", "opening", "gap"):
+            if getattr(self, name) > LARGEST:
+                raise RequirementError(
+                    f"{name} {getattr(self, name):g} is more than {LARGEST:g} grid steps"
+                )
         if not self.floor < 0 < self.ceiling:
             raise RequirementError(
                 "robots hover at height 0, between floor and ceiling; "
-                f"not so with floor {self.floor} and ceiling {self.ceiling}"
+                f"not so with floor {self.floor:g} and ceiling {self.ceiling:g}"
             )
         if self.ceiling - self.floor < self.gap:
             raise RequirementError(
-                f"between floor {self.floor} and ceiling {self.ceiling} "
-                f"there is no room for a gap of {self.gap}"
+                f"between floor {self.floor:g} and ceiling {self.ceiling:g} grid steps "
+                f"there is no room for a gap of {self.gap:g}"
             )
 
     @property

@@ -18,7 +18,8 @@ from knotopt.supports.regions import Regions
 from knotopt.verify.path import PathReport, check_path
 
 FINE = 0.005  # between the points of a curve that are examined [grid steps]
-TOLERANCE = 2e-3  # by which a limit may be missed, that of the sampling [grid steps]
+TOLERANCE = 2e-3  # by which a length may miss its limit, that of the sampling [grid steps]
+SHARE = 0.02  # of a limit by which it may be missed, if that is less (of a slope: in any case)
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,10 @@ class Round:
     ----------
     raw_status : str
     accepted : bool
-        Whether every triangle kept its orientation, so that the new path has the same diagram.
+        Whether every triangle kept its orientation, and every crossing its upper strand, so that
+        the new path has the same diagram.
+    is_solved : bool
+        Whether it was accepted and IPOPT came to a local optimum.
     iterations : int
     vertices, triangles, pairs : int
         Of the path, constrained triangles, and distances constrained.
@@ -55,6 +59,7 @@ class Round:
 
     raw_status: str
     accepted: bool
+    is_solved: bool
     iterations: int
     vertices: int
     triangles: int
@@ -171,21 +176,21 @@ def unmet(
     """
     if not report.same_diagram:
         return ["the diagram is not the grid's"]
-    found = []
+    found = [] if report.same_knot else ["the knot is not the grid's"]
     asked = requirements
-    if report.clearance < asked.clearance - TOLERANCE:
+    if report.clearance < least(asked.clearance):
         first, second = (
             span_name(cable, float(np.interp(place, along, times))) for place in report.closest
         )
         found.append(
-            f"clearance {report.clearance:.3f} < {asked.clearance:g} between {first} and {second}"
+            f"clearance {report.clearance:.3g} < {asked.clearance:g} between {first} and {second}"
         )
-    if report.opening < asked.opening - TOLERANCE:
-        found.append(f"opening {report.opening:.3f} < {asked.opening:g} in {report.narrowest}")
-    if report.gap < asked.gap - TOLERANCE:
-        found.append(f"gap {report.gap:.3f} < {asked.gap:g} at crossing c{report.tightest + 1}")
-    if report.steepest > asked.slope + 10 * TOLERANCE:
-        found.append(f"slope {report.steepest:.3f} > {asked.slope:g}")
+    if report.opening < least(asked.opening):
+        found.append(f"opening {report.opening:.3g} < {asked.opening:g} in {report.narrowest}")
+    if report.gap < least(asked.gap):
+        found.append(f"gap {report.gap:.3g} < {asked.gap:g} at crossing c{report.tightest + 1}")
+    if report.steepest > asked.slope * (1 + SHARE):
+        found.append(f"slope {report.steepest:.3g} > {asked.slope:g}")
     if report.lowest < asked.floor - TOLERANCE or report.highest > asked.ceiling + TOLERANCE:
         found.append(
             f"heights {report.lowest:.3f} to {report.highest:.3f} "
@@ -194,6 +199,11 @@ def unmet(
     if report.robots_off > 2 * TOLERANCE:
         found.append(f"a robot is {report.robots_off:.3f} away from the cable")
     return found
+
+
+def least(limit: float) -> float:
+    """What still counts as keeping a lower limit of a length [grid steps]."""
+    return limit - min(TOLERANCE, SHARE * limit)
 
 
 def span_name(cable: Cable, time: float) -> str:

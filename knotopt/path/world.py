@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields, replace
 
 from knotopt.errors import RequirementError
 from knotopt.path.curve import Curve
-from knotopt.path.requirements import PathRequirements
+from knotopt.path.requirements import LARGEST, PathRequirements
 from knotopt.path.result import PathResult
 
 
@@ -36,6 +36,10 @@ class World:
     --------
     >>> World(step=0.5, downwash=0.15).requirements(PathRequirements()).gap
     0.36
+    >>> World(step=0.01)
+    Traceback (most recent call last):
+    ...
+    knotopt.errors.RequirementError: a gap of 0.33 m is more than 10 grid steps of 0.01 m
     """
 
     step: float
@@ -52,6 +56,17 @@ class World:
                 raise RequirementError(f"{field.name} is a length in metres, not {value!r}")
         if not self.step > 0:
             raise RequirementError(f"a grid step is a positive length in metres, not {self.step}")
+        if not self.gap > 0:
+            raise RequirementError("a drone and its downwash need some height; 0 m is none")
+        if self.gap > LARGEST * self.step:
+            raise RequirementError(
+                f"a gap of {self.gap:g} m is more than {LARGEST:g} grid steps of {self.step:g} m"
+            )
+        if self.gap > self.ceiling - self.floor:
+            raise RequirementError(
+                f"between the floor {self.floor:g} m and the ceiling {self.ceiling:g} m there is "
+                f"no room for a gap of {self.gap:g} m"
+            )
         if not self.floor < self.altitude < self.ceiling:
             raise RequirementError(
                 f"the altitude {self.altitude:g} m is not between the floor {self.floor:g} m and "
@@ -64,13 +79,7 @@ class World:
         return self.drone_height + self.downwash
 
     def requirements(self, asked: PathRequirements) -> PathRequirements:
-        """The requirements with gap, floor and ceiling of this world, in grid steps.
-
-        Raises
-        ------
-        RequirementError
-            Between floor and ceiling there is no room for the gap.
-        """
+        """The requirements with gap, floor and ceiling of this world, in grid steps."""
         return replace(
             asked,
             gap=round(self.gap / self.step, 9),
@@ -92,6 +101,7 @@ class World:
             "clearance": report.clearance * step,
             "vertical_gap": report.gap * step,
             "vertical_gap_needed": self.gap,
+            "nearest_to_a_robot": report.nearest_to_a_robot * step,
             "lowest": self.altitude + report.lowest * step,
             "highest": self.altitude + report.highest * step,
             "above_floor": self.altitude + report.lowest * step - self.floor,

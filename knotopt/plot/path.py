@@ -12,9 +12,9 @@ from mpl_toolkits.mplot3d import Axes3D
 
 from knotopt.path.mesh import FloatArray
 from knotopt.path.result import PathResult
-from knotopt.plot.cable import CABLE_COLOUR, LIFTING_COLOUR, SUPPORT_COLOUR
+from knotopt.plot.cable import CABLE_COLOUR, HALO, LIFTING_COLOUR, SUPPORT_COLOUR
 
-GAP_SHARE = 0.18  # half-width of the gap in a lower strand, at most [grid steps]
+GAP_SHARE = 0.14  # half-width of the gap in a lower strand, at most [grid steps]
 LIFTING: dict[str, Any] = {"marker": "D", "markersize": 7}
 GRID_COLOUR = "#CCCCCC"
 
@@ -25,6 +25,17 @@ def draw_plan(axes: Axes, result: PathResult, *, colour: str = CABLE_COLOUR) -> 
     axes.add_collection(
         LineCollection(_pieces(result), colors=colour, linewidths=1.8, capstyle="butt", zorder=3)
     )
+    for k, point in enumerate(result.report.crossings.point, 1):
+        axes.annotate(
+            f"c{k}",
+            point,
+            (5, -8),
+            textcoords="offset points",
+            fontsize=5,
+            color="#009E73",
+            zorder=6,
+            path_effects=HALO,
+        )
     size = result.cable.diagram.size
     low = np.minimum(plan.min(axis=0), 1) - 0.5
     high = np.maximum(plan.max(axis=0), size) + 0.5
@@ -56,6 +67,7 @@ def draw_holders(axes: Axes, result: PathResult) -> list[Line2D]:
             fontsize=7,
             color="#444444",
             zorder=6,
+            path_effects=HALO,
         )
     return [
         *_points(axes, robots[1:-1], "support robot", marker="o", color=SUPPORT_COLOUR),
@@ -104,9 +116,16 @@ def draw_heights(axes: Axes, result: PathResult) -> list[Line2D]:
             ha="center",
             va="bottom" if z >= 0 else "top",
             color="#444444",
+            path_effects=HALO,
         )
     robots = along[[int(((samples - robot) ** 2).sum(axis=1).argmin()) for robot in result.robots]]
-    axes.plot(robots, np.zeros(len(robots)), "o", color=SUPPORT_COLOUR, markersize=4, zorder=4)
+    inner, ends = robots[1:-1], robots[[0, -1]]
+    axes.plot(inner, 0 * inner, "o", color=SUPPORT_COLOUR, markersize=4, zorder=4)
+    axes.plot(ends, 0 * ends, "D", color=LIFTING_COLOUR, markersize=4, zorder=4)
+    for number, s in zip((1, *result.supports, len(result.cable.path)), robots, strict=True):
+        axes.annotate(
+            str(number), (s, 0), (3, 3), textcoords="offset points", fontsize=6, path_effects=HALO
+        )
     axes.set_xlabel("length along the cable [grid steps]", fontsize=8)
     axes.set_ylabel("height [grid steps]", fontsize=8)
     axes.tick_params(labelsize=7)
@@ -127,8 +146,12 @@ def draw_space(axes: Axes3D, result: PathResult) -> None:
     axes.scatter(*robots[[0, -1]].T, color=LIFTING_COLOUR, marker="D", s=22)
     axes.set_box_aspect((1, 1, 0.3))
     axes.set_zlim(low, max(0.5, float(samples[:, 2].max()) + 0.2))
-    axes.set_xlim(0.5, size + 0.5)
-    axes.set_ylim(0.5, size + 0.5)
+    for low_end, high_end, limits in (
+        (samples[:, 0].min(), samples[:, 0].max(), axes.set_xlim),
+        (samples[:, 1].min(), samples[:, 1].max(), axes.set_ylim),
+    ):
+        limits(min(0.5, low_end), max(size + 0.5, high_end))
+    axes.set_title("heights drawn larger; shadow in grey", fontsize=7)
     axes.view_init(elev=32, azim=-60)
     axes.tick_params(labelsize=6, pad=-2)
 
@@ -142,7 +165,7 @@ def _pieces(result: PathResult) -> list[FloatArray]:
     every = np.sort(np.interp(crossings.visits[0], np.arange(len(along)), along))
     # Between crossings close to each other the gaps are narrower, so that something is left.
     nearest = np.array([np.abs(every - s)[np.abs(every - s) > 1e-9].min(initial=9) for s in at])
-    width = np.minimum(GAP_SHARE, 0.35 * nearest)
+    width = np.minimum(GAP_SHARE, 0.25 * nearest)
     drawn = np.ones(len(samples), dtype=bool)
     for s, w in zip(at, width, strict=True):
         drawn[np.abs(along - s) < w] = False

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
+from knotopt.path.measures import status_word
 from knotopt.path.relaxation import RelaxationRun, straightening
 from knotopt.path.result import PathResult
 from knotopt.plot.cable import draw_cable, draw_robots
@@ -100,7 +101,7 @@ def _caption(result: PathResult, *, brief: bool = False) -> str:
     words = f"length {result.curve.length:.1f}, {result.stretch:.2f} of the taut string"
     if not report.same_diagram:
         words += ", " + ("another diagram" if report.same_knot else "ANOTHER KNOT")
-    return words if brief else f"{NAMES[result.method]} ({result.status}): {words}"
+    return words if brief else f"{NAMES[result.method]} ({status_word(result)}): {words}"
 
 
 def _step_at(run: RelaxationRun, share: float) -> int:

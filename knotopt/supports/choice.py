@@ -100,6 +100,8 @@ def read_supports(path: Path, diagram: GridDiagram, cut: str = "best") -> GivenS
         raise FileFormatError(f"cannot read {path}: {error.strerror}") from error
     except (UnicodeDecodeError, ValueError) as error:
         raise FileFormatError(f"{path} is not JSON: {error}") from error
+    if isinstance(content, list) and len(content) > 1:
+        raise FileFormatError(f"{path} holds {len(content)} sets of supports: it must be one")
     if not isinstance(content, dict) or not isinstance(content.get("supports"), list):
         raise FileFormatError(f'{path} has no "supports", a list of turning points')
     marks = [list(mark) for mark in diagram.marks]
