@@ -64,6 +64,7 @@ GENTLEST = 0.6  # share of the largest slope that is asked for at least
 LEAST_SPACING = 0.05  # by which bending is scaled [grid steps]
 EVENNESS = 0.3  # weight of even spacing
 STIFFNESS = 1.5  # weight of lengths near nominal, against bending
+SOFT_ROUNDS = 1  # first rounds without it, in which the path shrinks
 ITERATIONS = 60  # of IPOPT a round
 
 
@@ -257,7 +258,8 @@ def _round(
         coarse = COARSE if number < COARSE_ROUNDS else 1.0
         mesh = remesh(mesh, threads.witness, coarse * SPACING, coarse * FINEST)
     triangles = triangulate(mesh.positions, mesh.segments)
-    problem = _compile(mesh, triangles, threads, asked, limits, reach)
+    stiffness = STIFFNESS if number >= SOFT_ROUNDS else 0.0
+    problem = _compile(mesh, triangles, threads, asked, limits, reach, stiffness)
     meshed = time.perf_counter()
     try:
         found = solve(
@@ -298,6 +300,7 @@ def _compile(
     asked: PathRequirements,
     limits: _Limits,
     reach: float,
+    stiffness: float,
 ) -> PathProgram:
     """The program of a round, without constraints that nothing within reach could violate."""
     held = mesh.held
@@ -338,7 +341,7 @@ def _compile(
             asked.floor,
             asked.ceiling,
         ),
-        weights=Weights(asked.bending, EVENNESS, STIFFNESS),
+        weights=Weights(asked.bending, EVENNESS, stiffness),
         reach=reach,
     )
 
