@@ -32,6 +32,7 @@ def measure(case: Case) -> Result:
     s = np.linspace(0, path.curve.length, 20_000)
     return {
         "status": str(path.status),
+        "smooth": path.curve.is_smooth,
         "stretch": path.stretch,
         "bending_energy": float(np.trapezoid(path.curve.curvature(s) ** 2, s)),
         "smallest_radius": path.report.smallest_radius,

@@ -187,7 +187,8 @@ def tradeoff_figure(rows: Rows) -> Figure:
     axes = figure.subplots()
     groups: dict[str, Rows] = defaultdict(list)
     for row in rows:
-        groups[row["row"]].append(row)
+        if row["smooth"]:  # a polyline has no curvature to measure
+            groups[row["row"]].append(row)
     for name, group in groups.items():
         axes.plot(
             [row["bending_energy"] for row in group],
@@ -201,7 +202,7 @@ def tradeoff_figure(rows: Rows) -> Figure:
                 axes.plot(row["bending_energy"], row["stretch"], "k*", markersize=7, zorder=4)
     axes.set(
         xscale="log",
-        xlabel="integral of squared curvature [1 / grid step]",
+        xlabel="bending: squared curvature, integrated",
         ylabel="length over the taut string's",
     )
     axes.legend(fontsize=7, frameon=False)

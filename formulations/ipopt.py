@@ -157,8 +157,8 @@ IPOPT = {
     "acceptable_tol": 1.0,
     "acceptable_compl_inf_tol": 1e-1,
     "acceptable_constr_viol_tol": 1e-5,
-    "acceptable_obj_change_tol": 3e-4,
-    "acceptable_iter": 4,
+    "acceptable_obj_change_tol": 1e-3,
+    "acceptable_iter": 3,
     # These systems are small and well scaled: MUMPS's own scaling only costs time.
     "mumps_scaling": 0,
     "mumps_permuting_scaling": 0,

@@ -65,7 +65,7 @@ LEAST_SPACING = 0.05  # by which bending is scaled [grid steps]
 EVENNESS = 0.3  # weight of even spacing
 STIFFNESS = 1.5  # weight of lengths near nominal, against bending
 SOFT_ROUNDS = 1  # first rounds without it, in which the path shrinks
-ITERATIONS = 60  # of IPOPT a round
+ITERATIONS = 40  # of IPOPT a round
 
 
 @dataclass(frozen=True)
