@@ -3,18 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable
 
-from benchmarks.registry import Benchmark, Case, Result, register
+from benchmarks.registry import Benchmark, Case, Result, each_knot, register
 from knotopt.catalogue.knots import shipped_knots
 from knotopt.certificate import prove
 from knotopt.verify.certificate import check_certificate
-
-
-def cases(smoke: bool) -> Iterable[Case]:
-    """One case a knot."""
-    names = list(shipped_knots())
-    return ({"knot": name} for name in (names[:2] if smoke else names))
 
 
 def measure(case: Case) -> Result:
@@ -35,4 +28,4 @@ def measure(case: Case) -> Result:
     }
 
 
-register(Benchmark("certificates", "prove and check the minima of 249 knots", cases, measure))
+register(Benchmark("certificates", "prove and check the minima of 249 knots", each_knot, measure))

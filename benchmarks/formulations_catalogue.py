@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable
 
-from benchmarks.registry import Benchmark, Case, Result, register
+from benchmarks.registry import Benchmark, Case, Result, each_knot, register
 from benchmarks.warm import warm_up
 from formulations.backends import get_backend
 from formulations.solution import Limits
@@ -18,12 +17,6 @@ from knotopt.supports.minimal import compile_program
 from knotopt.supports.requirements import Formulation, Requirements
 
 THREADINGS = {"opening": None, "opening_over_under": "over-under", "span": None}
-
-
-def cases(smoke: bool) -> Iterable[Case]:
-    """One case a knot."""
-    names = list(shipped_knots())
-    return ({"knot": name} for name in (names[:2] if smoke else names))
 
 
 def measure(case: Case) -> Result:
@@ -58,4 +51,11 @@ def measure(case: Case) -> Result:
     return result
 
 
-register(Benchmark("formulations", "LCF, opening and span on 249 knots x all cuts", cases, measure))
+register(
+    Benchmark(
+        "formulations",
+        "LCF, opening and span on 249 knots x all cuts",
+        each_knot,
+        measure,
+    )
+)

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable
 from statistics import median
 
 from benchmarks.lcf_by_definition import slow_lcf
-from benchmarks.registry import Benchmark, Case, Result, register
+from benchmarks.registry import Benchmark, Case, Result, each_knot, register
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import Cut, crossing_free_cuts
 from knotopt.catalogue.knots import shipped_knots
@@ -15,12 +14,6 @@ from knotopt.diagram.grid import GridDiagram, Mark
 from knotopt.supports.lcf import lcf
 
 REPEATS = 5
-
-
-def cases(smoke: bool) -> Iterable[Case]:
-    """One case a knot."""
-    knots = list(shipped_knots().values())
-    return ({"knot": knot.name} for knot in (knots[:2] if smoke else knots))
 
 
 def measure(case: Case) -> Result:
@@ -55,4 +48,11 @@ def _milliseconds(marks: tuple[Mark, ...], cut: Cut) -> float:
     return median(times)
 
 
-register(Benchmark("lcf_catalogue", "LCF on 249 knots x all crossing-free cuts", cases, measure))
+register(
+    Benchmark(
+        "lcf_catalogue",
+        "LCF on 249 knots x all crossing-free cuts",
+        each_knot,
+        measure,
+    )
+)

@@ -2,22 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import asdict
 
-from benchmarks.registry import Benchmark, Case, Result, register
+from benchmarks.registry import Benchmark, Case, Result, each_knot, register
 from benchmarks.warm import warm_paths
 from knotopt.catalogue.knots import shipped_knots
 from knotopt.path.measures import both_methods, measure
 from knotopt.path.result import PathResult
 from knotopt.supports.lcf import best_cut
 from knotopt.supports.search import best_supports
-
-
-def cases(smoke: bool) -> Iterable[Case]:
-    """One case a knot."""
-    names = list(shipped_knots())
-    return ({"knot": name} for name in (names[:2] if smoke else names))
 
 
 def measure_knot(case: Case) -> Result:
@@ -42,4 +35,4 @@ def _effort(path: PathResult) -> dict[str, float]:
     }
 
 
-register(Benchmark("paths", "relaxation and program on 249 knots", cases, measure_knot))
+register(Benchmark("paths", "relaxation and program on 249 knots", each_knot, measure_knot))

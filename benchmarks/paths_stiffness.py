@@ -2,22 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import asdict
 
-from benchmarks.registry import Benchmark, Case, Result, register
+from benchmarks.registry import Benchmark, Case, Result, each_knot, register
 from knotopt.catalogue.knots import shipped_knots
 from knotopt.path.measures import measure
 from knotopt.path.relaxation import Relaxation, relaxed_path
 from knotopt.supports.lcf import best_cut
 
 STIFFNESSES = (0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0)
-
-
-def cases(smoke: bool) -> Iterable[Case]:
-    """One case a knot."""
-    names = list(shipped_knots())
-    return ({"knot": name} for name in (names[:2] if smoke else names))
 
 
 def measure_knot(case: Case) -> Result:
@@ -37,4 +30,4 @@ def measure_knot(case: Case) -> Result:
     }
 
 
-register(Benchmark("paths_stiffness", "relaxation, softer and stiffer", cases, measure_knot))
+register(Benchmark("paths_stiffness", "relaxation, softer and stiffer", each_knot, measure_knot))

@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from knotopt.catalogue.knots import shipped_knots
+
 Case = dict[str, Any]  # what identifies one measurement, as JSON
 Result = dict[str, Any]  # what was measured, as JSON
 
@@ -40,3 +42,9 @@ def register(benchmark: Benchmark) -> None:
     if benchmark.name in BENCHMARKS:
         raise ValueError(f"two benchmarks are named {benchmark.name!r}")
     BENCHMARKS[benchmark.name] = benchmark
+
+
+def each_knot(smoke: bool) -> Iterable[Case]:
+    """One case a knot, all 249 or, with `smoke`, the first two."""
+    names = list(shipped_knots())
+    return ({"knot": name} for name in (names[:2] if smoke else names))

@@ -82,7 +82,7 @@ class PathSolution:
 
 
 def solve(
-    program: PathProgram, *, iterations: int = 200, seconds: float | None = None, **settings: float
+    program: PathProgram, *, iterations: int = 200, seconds: float | None = None
 ) -> PathSolution:
     """Solve a path program from its start by IPOPT.
 
@@ -93,8 +93,6 @@ def solve(
         How many IPOPT may take.
     seconds : float, optional
         Wall time [s].
-    **settings
-        Further settings of IPOPT, such as `tol`.
 
     Raises
     ------
@@ -113,7 +111,7 @@ def solve(
         [terms for terms, _ in objective],
         [terms for _, terms, _, _ in constraints],
     )
-    solver = build_solver(structure, solver_options({**IPOPT, **limits, **settings}))
+    solver = build_solver(structure, solver_options({**IPOPT, **limits}))
     built = time.perf_counter()
     parameters = [layout.start[layout.is_fixed]]
     parameters += [numbers.ravel() for _, numbers in objective]

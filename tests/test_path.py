@@ -75,7 +75,7 @@ def test_the_catalogue_keeps_its_diagrams() -> None:
 
 
 @given(cables(3, 6), st.data())
-@settings(max_examples=25)
+@settings(max_examples=60)
 def test_any_supports_of_any_cable_keep_the_diagram(cable: Cable, data: st.DataObject) -> None:
     count = len(cable.path)
     supports = data.draw(st.sets(st.integers(2, count - 1)).map(lambda s: tuple(sorted(s))))
@@ -303,9 +303,6 @@ def test_one_structure_is_built_once() -> None:
     for _ in range(2):
         result = optimise_path(chosen.cable, chosen.supports)
     assert build_solver.cache_info().hits == len(result.rounds)
-    assert sum(each.build_seconds for each in result.rounds) < sum(
-        each.solve_seconds for each in result.rounds
-    )
 
 
 def test_places_are_named_by_turning_points() -> None:

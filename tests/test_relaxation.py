@@ -61,12 +61,6 @@ def test_robots_do_not_move_and_it_comes_to_rest() -> None:
     assert (np.linalg.norm(run.trajectory[-1] - run.trajectory[0], axis=1)[free] > 0.05).all()
 
 
-def test_springs_alone_leave_the_grid_path() -> None:
-    chosen = best_cut(find_knot("3").diagram)
-    run = relax(chosen.cable, chosen.supports, straighten=False)
-    assert run.converged and (run.trajectory[-1] == run.trajectory[0]).all()
-
-
 def test_straightening_has_constant_size_or_none() -> None:
     points = np.array([[0.0, 0], [1, 0.001], [2, 0], [2, 2], [1, 1], [1, 5]])
     sizes = np.linalg.norm(straightening(points, 0.02), axis=1)

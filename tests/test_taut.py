@@ -10,7 +10,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import cables
 
-from knotopt import Cable, best_cut, find_knot, taut_length, taut_string
+from knotopt import (
+    Cable,
+    best_cut,
+    best_supports,
+    find_knot,
+    optimise_path,
+    taut_length,
+    taut_string,
+)
 from knotopt.errors import RequirementError
 from knotopt.path.mesh import robot_times
 
@@ -116,3 +124,20 @@ def test_a_string_held_by_a_robot_bends_round_it() -> None:
     assert max(len(span) for span in spans) > 2
     with pytest.raises(RequirementError, match="no support robot can be at p99"):
         taut_string(chosen.cable, (99,))
+
+
+@pytest.mark.parametrize("name", ["3_1", "5_2", "7_4", "8_19", "9_20"])
+def test_the_programs_path_passes_the_robots_as_the_cable_does(name: str) -> None:
+    """So the taut string of the same class is a lower bound of its length."""
+    for chosen in (best_cut(find_knot(name).diagram), best_supports(find_knot(name).diagram).best):
+        cable, supports = chosen.cable, chosen.supports
+        plan = optimise_path(cable, supports).curve.sample(0.01)[:, :2]
+        times = robot_times(cable, supports)
+        robots = [tuple(map(float, cable.cells[t])) for t in times]
+        ends = [int(np.linalg.norm(plan - robot, axis=1).argmin()) for robot in robots]
+        for k, (start, end) in enumerate(pairwise(ends)):
+            corners = cable.times[(cable.times > times[k]) & (cable.times < times[k + 1])]
+            inner = [tuple(cable.cells[t] + np.array([0.013, 0.007])) for t in corners]
+            wanted = word([robots[k], *inner, robots[k + 1]], robots, (k, k + 1))
+            way = [robots[k], *map(tuple, plan[start + 1 : end]), robots[k + 1]]
+            assert word(way, robots, (k, k + 1)) == wanted

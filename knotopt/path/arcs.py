@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from knotopt.cable.cable import Cable
-from knotopt.path.curve import Curve
+from knotopt.path.curve import Curve, length_along
 from knotopt.path.heights import height_arcs
-from knotopt.path.mesh import FloatArray, robot_times
+from knotopt.path.mesh import FloatArray, between, robot_times
 from knotopt.verify.crossings import CurveCrossings, curve_crossings
 
 SPACING = 0.5  # of the points that the curve goes through, at most [grid steps]
@@ -54,7 +54,7 @@ def with_arcs(
     first, second = rank[len(plan) :].reshape(2, -1)
     first_over = _first_over(cable, crossings, places, times)
     robots = np.searchsorted(times, robot_times(cable, supports))
-    along = np.concatenate(([0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))))
+    along = length_along(points)
     heights = height_arcs(
         along + 1e-9 * np.arange(len(along)),
         rank[robots],
@@ -74,11 +74,7 @@ def _denser(plan: FloatArray, times: FloatArray) -> tuple[FloatArray, FloatArray
     steps = np.linalg.norm(np.diff(plan, axis=0), axis=1)
     count = np.maximum(1, np.ceil(steps / SPACING)).astype(np.int64)
     places = np.concatenate([k + np.arange(n) / n for k, n in enumerate(count)] + [[len(steps)]])
-    every = np.arange(len(plan))
-    return (
-        np.column_stack([np.interp(places, every, axis) for axis in plan.T]),
-        np.interp(places, every, times),
-    )
+    return between(plan, places), np.interp(places, np.arange(len(plan)), times)
 
 
 def _first_over(

@@ -14,6 +14,12 @@ from knotopt.path.mesh import FloatArray
 GAUSS_NODES, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(5)
 
 
+def length_along(points: FloatArray) -> FloatArray:
+    """Length of a polyline up to each of its points, shape (m,)."""
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    return np.concatenate(([0], np.cumsum(steps)))
+
+
 @dataclass(frozen=True, eq=False)
 class Curve:
     """A curve through points in space, called with arc length.
@@ -101,8 +107,7 @@ class Curve:
 
     @cached_property
     def _chords(self) -> FloatArray:
-        steps = np.linalg.norm(np.diff(self.points, axis=0), axis=1)
-        return np.concatenate(([0], np.cumsum(steps)))
+        return length_along(self.points)
 
     @cached_property
     def _spline(self) -> PPoly:

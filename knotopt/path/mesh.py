@@ -71,7 +71,7 @@ class Mesh:
         return self.places(np.where(crossings.first_over, crossings.second, crossings.first))
 
     @cached_property
-    def knots(self) -> IntArray:
+    def joints(self) -> IntArray:
         """Places of robots and crossing visits in order: the ends of arcs."""
         return np.unique(np.concatenate((self.robots, self.over, self.under)))
 
@@ -105,6 +105,12 @@ class Mesh:
         return held
 
 
+def between(points: FloatArray | IntArray, places: FloatArray) -> FloatArray:
+    """Points of a polyline at fractional places: k + u is a share u after point k."""
+    every = np.arange(len(points))
+    return np.column_stack([np.interp(places, every, axis) for axis in points.T])
+
+
 def robot_times(cable: Cable, supports: tuple[int, ...]) -> IntArray:
     """Times of all robots on a cable, the lifting ones included.
 
@@ -132,8 +138,7 @@ def lay_mesh(cable: Cable, supports: tuple[int, ...]) -> Mesh:
     visits = np.unique(np.concatenate((robots, *cable.visits[:1])))
     short = visits[:-1][np.diff(visits) == 1]  # arcs without a lattice point inside
     times = np.sort(np.concatenate((times, short + 0.5)))
-    cells = cable.cells.astype(np.float64)
-    plan = np.column_stack([np.interp(times, np.arange(len(cells)), axis) for axis in cells.T])
+    plan = between(cable.cells, times)
     vertex = np.arange(len(times))
     crossings = cable.crossings
     vertex[np.searchsorted(times, crossings.second)] = np.searchsorted(times, crossings.first)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import dataclass
+from fractions import Fraction
 
 import numpy as np
 
@@ -43,18 +44,14 @@ REACHES = (math.inf, math.inf, 2.0, 1.0, 1.0, 0.5, 0.5, 0.5)
 """How far coordinates may move in each round [grid steps]."""
 REPAIR_REACH = 0.5  # the same in repairs
 FEASIBLE = 1e-3  # violations of the program below this are tolerances
+ROUNDING = 1e-9  # twice the area of triangles whose sign rounding could change
 OPENING_NEAR = 0.6  # openings wider than they must be by so much are left to the next round
 WORDS = {
-    "diagram": "diagram",
-    "clearance": "clearance",
     "angle": "angle between strands",
     "spread": "distance of crossings",
     "turn": "angle at a robot",
-    "opening": "opening",
-    "gap": "gap",
-    "slope": "slope",
 }
-"""The families of constraints for people."""
+"""Families of constraints whose names need explaining."""
 STEEP = 0.25  # share of the largest slope that a segment must have to be watched in a round
 FEWEST = 2  # rounds before the length is looked at
 SETTLED = 0.02  # change of the length, as a share, at which no further round is needed
@@ -173,11 +170,11 @@ def optimise_path(
     reasons = [*best.missed]
     if status is PathStatus.INFEASIBLE:
         reasons += [
-            f"the program finds no way for the {WORDS[each.family]} at {each.where}"
+            f"no way is found for the {WORDS.get(each.family, each.family)} at {each.where}"
             for each in record.violations
             if each.amount > FEASIBLE
         ]
-    result = PathResult(
+    return PathResult(
         cable,
         mesh.supports,
         asked,
@@ -186,12 +183,11 @@ def optimise_path(
         record.raw_status,
         best.curve,
         best.times,
+        best.report,
         time.perf_counter() - began - checking,
         tuple(rounds),
         blocked="; ".join(reasons),
     )
-    result.__dict__["report"] = best.report  # cached property, found already
-    return result
 
 
 @dataclass(frozen=True, eq=False)
@@ -226,10 +222,8 @@ class _Fitted:
 def _fit(mesh: Mesh, asked: PathRequirements, *, is_smooth: bool = True) -> _Fitted:
     curve = Curve(mesh.points, is_smooth)
     report = examine(mesh.cable, mesh.supports, curve, asked)
-    along = np.concatenate(([0], np.cumsum(mesh.lengths)))
-    return _Fitted(
-        curve, mesh.times, report, asked, unmet(report, asked, along, mesh.times, mesh.cable)
-    )
+    missed = unmet(report, asked, curve, mesh.times, mesh.cable)
+    return _Fitted(curve, mesh.times, report, asked, missed)
 
 
 def _settled(rounds: list[Round]) -> bool:
@@ -270,7 +264,7 @@ def _round(
     feasible = all(each.amount < FEASIBLE for each in found.violations)
     accepted = (
         (found.status is PathStatus.SOLVED or (found.status is PathStatus.STOPPED and feasible))
-        and bool((doubled_areas(found.positions, triangles) > 0).all())
+        and _all_positive(found.positions, triangles)
         and bool((found.heights[mesh.over] > found.heights[mesh.under]).all())
     )
     if accepted:
@@ -291,6 +285,16 @@ def _round(
         tuple(_named(mesh, problem, each) for each in found.violations),
     )
     return mesh, found.status, record
+
+
+def _all_positive(positions: FloatArray, triangles: IntArray) -> bool:
+    """Whether every triangle runs counterclockwise; where rounding could tell, exactly."""
+    areas = doubled_areas(positions, triangles)
+    for triangle in triangles[np.abs(areas) < ROUNDING]:
+        (ax, ay), (bx, by), (cx, cy) = ([Fraction(x) for x in positions[v]] for v in triangle)
+        if (bx - ax) * (cy - ay) <= (by - ay) * (cx - ax):
+            return False
+    return bool((areas > -ROUNDING).all())
 
 
 def _compile(

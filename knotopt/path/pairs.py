@@ -100,7 +100,7 @@ def robot_turns(mesh: Mesh) -> IntArray:
 
 def arc_ends(mesh: Mesh) -> IntArray:
     """Vertices at the two ends of each arc, without arcs between robots or back to themselves."""
-    ends = np.stack((mesh.chain[mesh.knots[:-1]], mesh.chain[mesh.knots[1:]]), axis=1)
+    ends = np.stack((mesh.chain[mesh.joints[:-1]], mesh.chain[mesh.joints[1:]]), axis=1)
     different = ends[:, 0] != ends[:, 1]
     return np.unique(np.sort(ends[different & ~mesh.held[ends].all(axis=1)], axis=1), axis=0)
 

@@ -18,7 +18,7 @@ from formulations.ipopt import PathStatus
 from knotopt.cable.cable import BoolArray, Cable
 from knotopt.errors import RequirementError
 from knotopt.path.arcs import with_arcs
-from knotopt.path.mesh import FloatArray, robot_times
+from knotopt.path.mesh import FloatArray, between, robot_times
 from knotopt.path.requirements import PathRequirements
 from knotopt.path.result import PathResult, examine, unmet
 
@@ -117,8 +117,6 @@ def relax(
     cable: Cable,
     supports: tuple[int, ...],
     parameters: Relaxation | None = None,
-    *,
-    straighten: bool = True,
 ) -> RelaxationRun:
     """Integrate eq. 13 from the grid path.
 
@@ -128,9 +126,6 @@ def relax(
     supports : tuple of int
         Turning points with a support robot (1-based).
     parameters : Relaxation, optional
-    straighten : bool
-        Whether the straightening force acts; without it the springs, which start at rest, leave the
-        grid path as it is.
 
     Raises
     ------
@@ -143,8 +138,7 @@ def relax(
     """
     asked = parameters or Relaxation()
     times = _node_times(cable, asked.spacing)
-    cells = cable.cells.astype(np.float64)
-    start = np.column_stack([np.interp(times, np.arange(len(cells)), axis) for axis in cells.T])
+    start = between(cable.cells, times)
     fixed = np.isin(times, robot_times(cable, supports))
     position, velocity = start.copy(), np.zeros_like(start)
     rest = np.linalg.norm(start[:, None] - start[None], axis=2)
@@ -152,8 +146,7 @@ def relax(
     converged = False
     for done in range(1, int(asked.most_steps) + 1):
         force = _spring_forces(position, velocity, rest, asked)
-        if straighten:
-            force += asked.alpha * straightening(position, asked.straight)
+        force += asked.alpha * straightening(position, asked.straight)
         force[fixed] = 0
         velocity = velocity + asked.step * force / asked.mass
         position = position + asked.step * velocity
@@ -208,9 +201,7 @@ def relaxed_path(
     words = "converged" if run.converged else f"not converged in {run.steps} steps"
     spent = time.perf_counter() - began
     report = examine(cable, supports, curve, asked)
-    steps = np.linalg.norm(np.diff(curve.points[:, :2], axis=0), axis=1)
-    along = np.concatenate(([0], np.cumsum(steps)))
-    result = PathResult(
+    return PathResult(
         cable,
         supports,
         asked,
@@ -219,12 +210,11 @@ def relaxed_path(
         words if finite else f"diverged in {run.steps} steps: the grid path",
         curve,
         times,
+        report,
         spent,
         steps=run.steps,
-        blocked="; ".join(unmet(report, asked, along, times, cable)),
+        blocked="; ".join(unmet(report, asked, curve, times, cable)),
     )
-    result.__dict__["report"] = report  # cached property, found already
-    return result
 
 
 def straightening(position: FloatArray, straight: float) -> FloatArray:

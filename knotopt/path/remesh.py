@@ -56,11 +56,11 @@ def turning(plan: FloatArray) -> FloatArray:
 
 def _coarsen(mesh: Mesh, protected: IntArray, spacing: float, finest: float) -> Mesh:
     free = np.ones(len(mesh.chain), dtype=bool)
-    free[mesh.knots] = False
+    free[mesh.joints] = False
     free[mesh.places(protected)] = False
     # An arc keeps a vertex of its own, or two strands could fall on one segment; one from a
     # crossing back to itself keeps two.
-    for start, end in zip(mesh.knots[:-1], mesh.knots[1:], strict=True):
+    for start, end in zip(mesh.joints[:-1], mesh.joints[1:], strict=True):
         least = 2 if mesh.chain[start] == mesh.chain[end] else 1
         inside = np.arange(start + 1, end)
         spare = int(free[start:end].sum()) - max(0, least - int((~free[inside]).sum()))

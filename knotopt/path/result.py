@@ -9,7 +9,7 @@ import numpy as np
 
 from formulations.ipopt import PathStatus
 from knotopt.cable.cable import Cable
-from knotopt.path.curve import Curve
+from knotopt.path.curve import Curve, length_along
 from knotopt.path.mesh import FloatArray, robot_times
 from knotopt.path.requirements import PathRequirements
 from knotopt.path.taut import taut_length
@@ -88,6 +88,8 @@ class PathResult:
         grid's diagram and meets every limit (the program) or simply converged (the relaxation).
     raw_status : str
         The method's own words.
+    report : PathReport
+        The path examined by code that shares nothing with what made it.
     curve : Curve
         The path [grid steps]; heights are above the robots'.
     times : float array, shape (m,)
@@ -110,6 +112,7 @@ class PathResult:
     raw_status: str
     curve: Curve
     times: FloatArray
+    report: PathReport
     seconds: float
     rounds: tuple[Round, ...] = field(default=())
     steps: int = 0
@@ -119,11 +122,6 @@ class PathResult:
     def robots(self) -> FloatArray:
         """Where the robots hold the cable, shape (R, 3) [grid steps]."""
         return robot_points(self.cable, self.supports)
-
-    @cached_property
-    def report(self) -> PathReport:
-        """The path examined by code that shares nothing with what made it."""
-        return examine(self.cable, self.supports, self.curve, self.requirements)
 
     @cached_property
     def taut_length(self) -> float:
@@ -160,7 +158,7 @@ def examine(
 def unmet(
     report: PathReport,
     requirements: PathRequirements,
-    along: FloatArray,
+    curve: Curve,
     times: FloatArray,
     cable: Cable,
 ) -> list[str]:
@@ -170,14 +168,16 @@ def unmet(
     ----------
     report : PathReport
     requirements : PathRequirements
-    along, times : float arrays, shape (m,)
-        Length in plan and time on the grid at places of the path, to name places by.
+    curve : Curve
+    times : float array, shape (m,)
+        Time on the grid of each of the curve's points, to name places by.
     cable : Cable
     """
     if not report.same_diagram:
         return ["the diagram is not the grid's"]
     found = [] if report.same_knot else ["the knot is not the grid's"]
     asked = requirements
+    along = length_along(curve.points[:, :2])
     if report.clearance < least(asked.clearance):
         first, second = (
             span_name(cable, float(np.interp(place, along, times))) for place in report.closest

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from knotopt.cable.cable import IntArray
+from knotopt.cable.cable import BoolArray, IntArray
 from knotopt.path.mesh import FloatArray, Mesh
 from knotopt.supports.regions import Regions
 from knotopt.supports.threading import Threading, threading_points
@@ -37,11 +37,9 @@ class Threads:
     def __len__(self) -> int:
         return len(self.witness)
 
-    def on_boundary(self, times: FloatArray) -> np.ndarray[tuple[int, int], np.dtype[np.bool_]]:
+    def on_boundary(self, times: FloatArray) -> BoolArray:
         """Which times lie on each thread's boundary, shape (K, len(times))."""
-        on: np.ndarray[tuple[int, int], np.dtype[np.bool_]] = np.zeros(
-            (len(self), len(times)), dtype=bool
-        )
+        on: BoolArray = np.zeros((len(self), len(times)), dtype=bool)
         for interval in (self.first, self.second):
             on |= (interval[:, :1] <= times) & (times <= interval[:, 1:])
         return on
@@ -75,10 +73,7 @@ def find_threads(regions: Regions, robots: IntArray) -> Threads:
 
 
 def opening_pairs(mesh: Mesh, threads: Threads, within: float) -> IntArray:
-    """Witness and segment ends (vertices) of boundary segments so near to a witness, shape (K, 3).
-
-    Segments that both lie on the strand's own ends are never there: a witness is inside.
-    """
+    """Witness and segment ends (vertices) of boundary segments so near to a witness, (K, 3)."""
     if not len(threads):
         return np.empty((0, 3), dtype=np.int64)
     on = threads.on_boundary(mesh.times)

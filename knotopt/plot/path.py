@@ -10,6 +10,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from mpl_toolkits.mplot3d import Axes3D
 
+from knotopt.path.curve import length_along
 from knotopt.path.mesh import FloatArray
 from knotopt.path.result import PathResult
 from knotopt.plot.cable import CABLE_COLOUR, HALO, LIFTING_COLOUR, SUPPORT_COLOUR
@@ -86,8 +87,8 @@ def draw_holders(axes: Axes, result: PathResult) -> list[Line2D]:
 
 def draw_heights(axes: Axes, result: PathResult) -> list[Line2D]:
     """Height along the path, crossings marked as passed over or under, robots at height 0."""
-    along = _along(result)
     samples, crossings = result.report.samples, result.report.crossings
+    along = length_along(samples)
     axes.plot(along, samples[:, 2], color=CABLE_COLOUR, linewidth=1.2, zorder=2)
     where, which = crossings.visits
     at = np.interp(where, np.arange(len(along)), along)
@@ -159,7 +160,7 @@ def draw_space(axes: Axes3D, result: PathResult) -> None:
 def _pieces(result: PathResult) -> list[FloatArray]:
     """The path in plan without the surroundings of its lower visits."""
     samples, crossings = result.report.samples, result.report.crossings
-    along = _along(result)
+    along = length_along(samples)
     under = np.where(crossings.gap > 0, crossings.second, crossings.first)
     at = np.interp(under, np.arange(len(along)), along)
     every = np.sort(np.interp(crossings.visits[0], np.arange(len(along)), along))
@@ -171,11 +172,6 @@ def _pieces(result: PathResult) -> list[FloatArray]:
         drawn[np.abs(along - s) < w] = False
     edges = np.flatnonzero(np.diff(np.concatenate(([0], drawn.astype(int), [0]))))
     return [samples[a:b, :2] for a, b in zip(edges[::2], edges[1::2], strict=True)]
-
-
-def _along(result: PathResult) -> FloatArray:
-    steps = np.linalg.norm(np.diff(result.report.samples, axis=0), axis=1)
-    return np.concatenate(([0], np.cumsum(steps)))
 
 
 def _points(axes: Axes, at: FloatArray, label: str, **style: Any) -> list[Line2D]:
