@@ -44,7 +44,14 @@ def test_the_checkers_cables_are_the_cables(diagram: GridDiagram) -> None:
         assert verify_cable.cable_path(marks, str(cut)) == list(Cable(diagram, cut).path)
 
 
-MEASURING = ("alexander.py", "crossings.py", "path.py")  # of curves, in floating point
+MEASURING = (  # of curves, in floating point
+    "alexander.py",
+    "crossings.py",
+    "flight.py",
+    "flight_limits.py",
+    "flight_word.py",
+    "path.py",
+)
 
 
 def test_the_checkers_import_nothing_they_check() -> None:
