@@ -1,0 +1,125 @@
+"""The plan of a flight: where every robot is at every instant, and what the leader ties by it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from knotopt.cable.cable import Cable
+from knotopt.flight.limits import FlightLimits
+from knotopt.path.world import World
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PlannedCrossing:
+    """One crossing of the leader's route with cable that is laid already.
+
+    Attributes
+    ----------
+    span : int
+        Span that is being flown: span j is the cable from robot j to robot j + 1 (1-based).
+    older : int
+        Span that is crossed, `older` < `span`.
+    over : bool
+        Whether the route passes over it.
+    sense : int
+        +1 where the route crosses the older span, seen along that one, from its right to its
+        left, else -1.
+    place : tuple of float
+        Where in plan, (x, y) [m].
+    height, cable_height : float
+        Of the route and of the older span there [m].
+    route : float
+        Arc length along the leader's route [m].
+    time : float
+        When the leader is there [s].
+    """
+
+    span: int
+    older: int
+    over: bool
+    sense: int
+    place: tuple[float, float]
+    height: float
+    cable_height: float
+    route: float
+    time: float
+
+    @property
+    def name(self) -> str:
+        """The crossing in words, such as "span 4 over span 1"."""
+        return f"span {self.span} {'over' if self.over else 'under'} span {self.older}"
+
+
+@dataclass(frozen=True, eq=False)
+class FlightPlan:
+    """Every robot's position over time. Robot 1 holds p_1; robot R, the leader, ends at p_2N.
+
+    Attributes
+    ----------
+    name : str
+        Of the knot.
+    cable : Cable
+    supports : tuple of int
+        Turning points with a support robot (1-based).
+    chosen_by : str
+        How the supports were chosen: "milp", "lcf", "all" or a file.
+    schedule : str
+        "fixed" or "optimised".
+    world : World
+    limits : FlightLimits
+    times : float array, shape (T,)
+        Evenly spaced from 0 [s].
+    positions : float array, shape (T, R, 3)
+        Of the robots [m; x along columns, y along rows, z up from the ground].
+    lengths : float array, shape (R - 1,)
+        Of cable between consecutive robots [m].
+    route : float array, shape (m, 3)
+        The leader's whole way, evenly spaced in arc length [m].
+    crossings : tuple of PlannedCrossing
+        In the order of flight.
+    passes : float array, shape (R - 1,)
+        When the leader is at the places of robots 1 to R - 1, where spans begin [s].
+    notes : tuple of str
+        What the planner could not do as asked.
+    """
+
+    name: str
+    cable: Cable
+    supports: tuple[int, ...]
+    chosen_by: str
+    schedule: str
+    world: World
+    limits: FlightLimits
+    times: FloatArray
+    positions: FloatArray
+    lengths: FloatArray
+    route: FloatArray
+    crossings: tuple[PlannedCrossing, ...]
+    passes: FloatArray
+    notes: tuple[str, ...] = field(default=())
+
+    @property
+    def robots(self) -> int:
+        """Number of robots R, the two at the cable's ends included."""
+        return len(self.supports) + 2
+
+    @property
+    def anchors(self) -> FloatArray:
+        """Where the robots hover in the end, shape (R, 3) [m]."""
+        anchors: FloatArray = self.positions[-1]
+        return anchors
+
+    @property
+    def duration(self) -> float:
+        """Time of flight, hovering included [s]."""
+        return float(self.times[-1])
+
+    @property
+    def interval(self) -> float:
+        """Time between samples [s]."""
+        return float(self.times[1] - self.times[0])
