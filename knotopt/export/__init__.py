@@ -1,0 +1,1 @@
+"""Flight plans for other programs: waypoints, and what a Crazyflie swarm takes."""
