@@ -69,14 +69,19 @@ def before_after_figure(result: LcfResult, title: str) -> Figure:
 
 
 def save_figure(figure: Figure, path: Path) -> None:
-    """Write a figure as .png (200 dpi), .pdf or .svg, atomically and the same bytes every time."""
+    """Write a figure as .png, .pdf or .svg, atomically and the same bytes every time."""
     suffix = check_format(path)
+    write_atomically(path, figure_bytes(figure, suffix[1:]))
+
+
+def figure_bytes(figure: Figure, format: str) -> bytes:
+    """A figure as a file of format "png" (200 dpi), "pdf" or "svg"."""
     # Without a date and with a fixed salt, the same figure gives the same file.
-    metadata = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}[suffix]
+    metadata = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}[format]
     buffer = io.BytesIO()
     with matplotlib.rc_context({"svg.hashsalt": "knotopt"}):
-        figure.savefig(buffer, format=suffix[1:], dpi=200, metadata=metadata)
-    write_atomically(path, buffer.getvalue())
+        figure.savefig(buffer, format=format, dpi=200, metadata=metadata)
+    return buffer.getvalue()
 
 
 def minimal_figure(results: Sequence[MinimalSupports], title: str) -> Figure:
