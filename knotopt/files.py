@@ -1,4 +1,4 @@
-"""Files that are either whole or not there: results land by atomic rename.
+"""Files and folders that are either whole or not there: results land by atomic rename.
 
 What takes long is collected beside its final place and goes on where it stopped.
 """
@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
+import tempfile
 import uuid
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TextIO
@@ -36,15 +38,106 @@ def write_atomically(path: Path, content: str | bytes) -> None:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         try:
-            with temporary.open("wb") as stream:
-                stream.write(data)
-                stream.flush()
-                os.fsync(stream.fileno())
+            _write_through(temporary, data)
             temporary.replace(path)
         finally:
             temporary.unlink(missing_ok=True)
     except OSError as error:
         raise OutputError(f"cannot write {path}: {error.strerror}") from error
+
+
+def write_folder(
+    path: Path, files: Mapping[str, str | bytes], why_kept: Callable[[Path], str] | None = None
+) -> None:
+    """Write a folder as a whole: it appears with all its files, or is left as it was.
+
+    Parameters
+    ----------
+    path : Path
+        Missing parent folders are made. A link is followed.
+    files : mapping of str to str or bytes
+        Names of files to their contents, text as UTF-8.
+    why_kept : callable, optional
+        Why a folder that is there already, and not empty, cannot be replaced, in words that follow
+        its name; "" if it can. By default none can.
+
+    Raises
+    ------
+    OutputError
+        The folder cannot be written there, or one that is there is not to be replaced. Nothing is
+        left behind.
+    """
+    check_folder(path, why_kept)
+    target = path.resolve()
+    token = uuid.uuid4().hex
+    temporary, old = (target.with_name(f".{token}.{end}") for end in ("tmp", "old"))
+    made: list[Path] = []
+    try:
+        try:
+            for parent in reversed((target.parent, *target.parent.parents)):
+                if not parent.exists():
+                    parent.mkdir()
+                    made.append(parent)
+            temporary.mkdir()
+            for name, content in files.items():
+                data = content.encode() if isinstance(content, str) else content
+                _write_through(temporary / name, data)
+            if target.exists():
+                target.rename(old)
+            try:
+                temporary.rename(target)
+            except BaseException:
+                if old.exists():
+                    old.rename(target)
+                raise
+        except BaseException:
+            shutil.rmtree(temporary, ignore_errors=True)
+            for parent in reversed(made):
+                parent.rmdir()
+            raise
+    except OSError as error:
+        raise OutputError(f"cannot write {path}: {error.strerror}") from error
+    shutil.rmtree(old, ignore_errors=True)
+
+
+def check_folder(path: Path, why_kept: Callable[[Path], str] | None = None) -> None:
+    """Whether `write_folder` can write there, before what takes long is computed.
+
+    Raises
+    ------
+    OutputError
+        It cannot.
+    """
+    target = path.resolve()
+    try:
+        if target.exists() and not target.is_dir():
+            raise OutputError(f"cannot write {path}: a file is in the way")
+        if target.is_dir():
+            if target == Path.cwd() or target.is_mount():
+                what = "a mount point" if target.is_mount() else "the current folder"
+                raise OutputError(
+                    f"{path} is {what}, which cannot be replaced as a whole: "
+                    "name a folder inside it"
+                )
+            if any(target.iterdir()):
+                why = "is there already" if why_kept is None else why_kept(target)
+                if why:
+                    raise OutputError(f"{path} {why}")
+            with tempfile.TemporaryDirectory(dir=target):  # its files will have to go
+                pass
+        above = next(parent for parent in target.parents if parent.exists())
+        with tempfile.TemporaryDirectory(dir=above):
+            pass
+    except OSError as error:
+        raise OutputError(f"cannot write {path}: {error.strerror}") from error
+
+
+def _write_through(path: Path, data: bytes) -> None:
+    """Write a file down to the disk."""
+    with path.open("wb") as stream:
+        stream.write(data)
+        stream.flush()
+        os.fsync(stream.fileno())
 
 
 class Lines:

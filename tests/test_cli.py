@@ -14,6 +14,7 @@ import pytest
 from conftest import Cli
 
 from formulations import probe
+from knotopt.cli.output import print_table
 from knotopt.table1 import NOTE
 
 HEAVY = ("numpy", "scipy", "networkx", "matplotlib", "cvxpy", "ortools", "casadi", "highspy")
@@ -22,9 +23,8 @@ HEAVY = ("numpy", "scipy", "networkx", "matplotlib", "cvxpy", "ortools", "casadi
 def test_help_names_every_command_and_each_has_an_example(cli: Cli) -> None:
     status, out, _ = cli("--help")
     assert status == 0
-    for command in (
-        *("knots", "show", "lcf", "solve", "path", "compare", "prove", "check", "table1", "doctor"),
-    ):
+    commands = "knots show lcf solve path fly compare prove check table1 doctor"
+    for command in commands.split():
         assert command in out
         status, text, _ = cli(command, "--help")
         assert status == 0 and f"knotopt {command}" in text
@@ -246,10 +246,45 @@ def test_pictures_without_matplotlib(cli: Cli, monkeypatch: pytest.MonkeyPatch) 
     assert status == 1 and "pip install 'knotopt[viz]'" in err
 
 
+def test_pictures_as_bytes() -> None:
+    from matplotlib.figure import Figure
+
+    from knotopt.plot.figures import figure_bytes
+
+    for name, magic in (("png", b"\x89PNG"), ("pdf", b"%PDF"), ("svg", b"<?xml")):
+        picture = figure_bytes(Figure(figsize=(1, 1)), name)
+        assert picture.startswith(magic)
+        assert picture == figure_bytes(Figure(figsize=(1, 1)), name)
+
+
+def test_heads_of_tables_keep_their_brackets(capsys: pytest.CaptureFixture[str]) -> None:
+    print_table(("length [m]", "[bold]"), [(1.5, "[red]"), (12.5, "x")])
+    lines = capsys.readouterr().out.split("\n")
+    assert lines[1].split() == ["length", "[m]", "[bold]"]
+    assert lines[3].split() == ["1.5", "[red]"]
+
+
+def test_ctrl_c_after_a_solve_is_an_exception() -> None:
+    """So that files half written are cleaned up; CP-SAT leaves it to the system."""
+    code = (
+        "import signal\n"
+        "from formulations.backends.cp_sat import CpSat\n"
+        "from formulations.instance import Instance, Row\n"
+        "from formulations.solution import Limits\n"
+        "row = Row((1, 2), 1, 'cover', 'a')\n"
+        "print(CpSat().solve(Instance('i', ('x', 'y'), 2, (1, 1), (row,)), Limits()).objective)\n"
+        "try: signal.raise_signal(signal.SIGINT)\n"
+        "except KeyboardInterrupt: print('heard')\n"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (run.returncode, run.stdout.split()) == (0, ["1", "heard"]), run
+
+
 def test_doctor(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
     found = cli.json("doctor")
     assert [solver["works"] for solver in found["solvers"]] == [True] * 5
     assert found["versions"]["numpy"][0].isdigit()
+    assert set(found["extras"]) == {"viz", "knotinfo", "scip", "sat", "sim"}
     broken = [probe.ProbeResult("CP-SAT (ortools)", False, "wrong optimum 2")]
     asked: list[str] = []
     monkeypatch.setattr(probe, "probe_solvers", lambda names: asked.extend(names) or broken)

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from knotopt import __version__
-from knotopt.cli import compare, doctor, knots, lcf, path, prove, show, solve, table1
+from knotopt.cli import compare, doctor, fly, knots, lcf, path, prove, show, solve, table1
 from knotopt.errors import KnotoptError
 
 
@@ -47,6 +47,7 @@ app.command("show")(show.show)
 app.command("lcf")(lcf.lcf)
 app.command("solve")(solve.solve)
 app.command("path")(path.path)
+app.command("fly")(fly.fly)
 app.command("compare")(compare.compare)
 app.command("prove")(prove.prove)
 app.command("check")(prove.check)

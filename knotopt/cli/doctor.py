@@ -12,6 +12,7 @@ EXTRAS = {
     "knotinfo": "database_knotinfo",
     "scip": "pyscipopt",
     "sat": "python-sat",
+    "sim": "mujoco",
 }
 PACKAGES = (
     "knotopt",

@@ -85,6 +85,7 @@ def print_table(columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
     from rich.table import Table
     from rich.text import Text
 
+    # Text, not markup: columns and cells hold [brackets].
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     cells = [[_cell(value) for value in row] for row in rows]
     for index, column in enumerate(columns):
@@ -92,13 +93,13 @@ def print_table(columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
         # In a narrow terminal long cells break into lines; no column vanishes.
         width = max(map(len, [column, *(row[index] for row in cells)]))
         table.add_column(
-            column,
+            Text(column),
             justify="right" if numeric else "left",
             min_width=min(width, NARROWEST),
             overflow="fold",
         )
     for row in cells:
-        table.add_row(*(Text(cell) for cell in row))  # not markup: cells hold [brackets]
+        table.add_row(*(Text(cell) for cell in row))
     # Into a pipe or a file, a row is one line.
     Console(width=None if sys.stdout.isatty() else UNBROKEN).print(table)
 

@@ -1,0 +1,145 @@
+"""Plans and flights examined from samples of positions alone: limits kept, crossings made.
+
+The plan's own account of its crossings is compared with what `knotopt.verify` finds: in a plan, the
+leader's track against laid cable, straight in plan and hanging as catenaries; in a flight, the
+leader against the cable as it was.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from knotopt.flight.plan import FlightPlan, PlannedCrossing
+from knotopt.flight.record import FlightRecord
+from knotopt.verify.flight import leader_events, nearest_approaches
+from knotopt.verify.flight_limits import LimitsReport, check_limits
+from knotopt.verify.flight_word import WordRow, compare_words, plan_word
+from knotopt.verify.span import check_span
+
+AS_PLANNED = "as planned"
+LEAST_OPEN = Fraction(1, 1000)  # openness of regions that are there at all [grid steps]
+
+
+@dataclass(frozen=True)
+class CrossingRow:
+    """A planned crossing beside what became of it.
+
+    Attributes
+    ----------
+    planned : str
+        Such as "span 4 over span 1"; "" for a crossing that was not planned.
+    result : str
+        "as planned", "wrong height", "wrong way", "missing" or "extra".
+    happened : str
+        When and how it was executed, or why it was not.
+    """
+
+    planned: str
+    result: str
+    happened: str
+
+    @property
+    def sentence(self) -> str:
+        """In one line."""
+        return ": ".join(part for part in (self.planned, self.happened) if part)
+
+
+@dataclass(frozen=True)
+class Examination:
+    """What a plan or a flight is like.
+
+    Attributes
+    ----------
+    limits : LimitsReport
+    crossings : tuple of CrossingRow
+        In order, crossings that undo each other left out.
+    lost : tuple of str
+        Of a plan: regions that the taut cable does not keep, so that it need not be the knot even
+        if every crossing is as planned; and why.
+    """
+
+    limits: LimitsReport
+    crossings: tuple[CrossingRow, ...]
+    lost: tuple[str, ...] = ()
+
+    @property
+    def amiss(self) -> tuple[CrossingRow, ...]:
+        """The crossings that are not as planned."""
+        return tuple(row for row in self.crossings if row.result != AS_PLANNED)
+
+    @property
+    def kept(self) -> int:
+        """How many crossings are as planned."""
+        return len(self.crossings) - len(self.amiss)
+
+
+def examine_plan(plan: FlightPlan) -> Examination:
+    """A plan's limits, and what the leader's track crosses if cable lies as the model has it.
+
+    A plan that was rehearsed flies past cable as it lay in the simulation; the model may then find
+    other crossings. The spacing is measured and not judged: it is along the route, which may bend.
+    """
+    limits, world = plan.limits, plan.world
+    report = check_limits(
+        plan.times,
+        plan.positions,
+        plan.lengths,
+        speed=limits.speed,
+        acceleration=limits.acceleration,
+        separation=limits.separation,
+        downwash=limits.downwash,
+        floor=world.floor,
+        ceiling=world.ceiling,
+        hover_before=limits.hover_before,
+        hover_after=limits.hover_after,
+    )
+    track = plan.positions[:, -1]
+    moved = np.linalg.norm(np.diff(track, axis=0), axis=1)
+    along = np.concatenate(([0.0], np.cumsum(moved)))
+    moving = np.concatenate(([True], moved > 0))
+    passes = np.interp(plan.passes, plan.times, along)
+    found = plan_word(track[moving], passes, plan.anchors, plan.lengths)
+    cable = plan.cable
+    taut = check_span(cable.path, cable.diagram.size, plan.supports, LEAST_OPEN)
+    lost = tuple(f"{closure.region}: {closure.reason}" for closure in taut.closures)
+    return Examination(report, _rows(compare_words(plan.crossings, found)), lost)
+
+
+def examine_flight(plan: FlightPlan, record: FlightRecord) -> Examination:
+    """What robots did that flew a plan, and what the leader crossed.
+
+    Raises
+    ------
+    ValueError
+        A record of other robots, or with positions that are no finite numbers.
+    """
+    limits, world = plan.limits, plan.world
+    report = check_limits(
+        record.times,
+        record.robots,
+        plan.lengths,
+        speed=limits.speed,
+        acceleration=limits.acceleration,
+        separation=limits.separation,
+        downwash=limits.downwash,
+        floor=world.floor,
+        ceiling=world.ceiling,
+    )
+    seen = (record.cable, record.held, plan.passes)
+    events = leader_events(record.times, *seen, clock=record.clock)
+    wanted = [(crossing.span, crossing.older) for crossing in plan.crossings]
+    near = nearest_approaches(*seen, record.clock, wanted)
+    return Examination(report, _rows(compare_words(plan.crossings, events, near)))
+
+
+def _rows(rows: Sequence[WordRow]) -> tuple[CrossingRow, ...]:
+    found = []
+    for row in rows:
+        planned = row.planned.name if isinstance(row.planned, PlannedCrossing) else ""
+        happened = row.sentence.removeprefix(f"{planned}: ").removeprefix(f"{row.kind}: ")
+        found.append(CrossingRow(planned, row.kind, happened))
+    return tuple(found)
