@@ -37,6 +37,9 @@ class Team:
     reach : tuple of ReachTarget
     forbidden, forced : tuple of int
         Points without and with a robot.
+    excluded : tuple of tuple of int
+        Sets of points between the ends that are not the answer: each is ruled out by itself, not
+        the sets that contain it.
     at_most : int or None
         Robots there are, lifting robots included.
     """
@@ -46,6 +49,7 @@ class Team:
     reach: tuple[ReachTarget, ...] = ()
     forbidden: tuple[int, ...] = ()
     forced: tuple[int, ...] = ()
+    excluded: tuple[tuple[int, ...], ...] = ()
     at_most: int | None = None
 
     def rows(self, points: int) -> Iterable[Row]:
@@ -64,6 +68,11 @@ class Team:
             yield Row((-k,), 1, "forbidden", f"p{k}")
         for k in self.forced:
             yield Row((k,), 1, "forced", f"p{k}")
+        # No-good: some point differs from the set that is ruled out.
+        for points_held in self.excluded:
+            literals = tuple(-k if k in points_held else k for k in range(2, points))
+            origin = " ".join(f"p{k}" for k in points_held) or "no supports"
+            yield Row(literals, 1, "excluded", origin)
         # At most k robots.
         if self.at_most is not None:
             literals = tuple(-k for k in range(1, points + 1))

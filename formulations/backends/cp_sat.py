@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import importlib.metadata
 import re
+import signal
 import threading
 import time
 from typing import Any
@@ -67,6 +68,7 @@ class CpSat:
         build_seconds = time.perf_counter() - began
         began = time.perf_counter()
         solver.solve(model)
+        _hear_interrupts()
         answer = Answer(
             _STATUS.get(solver.status_name(), Status.ERROR),
             solver.status_name(),
@@ -152,3 +154,10 @@ def _solver(limits: Limits) -> cp_model.CpSolver:
     if limits.seconds is not None:
         solver.parameters.max_time_in_seconds = limits.seconds
     return solver
+
+
+def _hear_interrupts() -> None:
+    """Give Ctrl-C back to Python: the solver leaves it to the system, which ends the process."""
+    handler = signal.getsignal(signal.SIGINT)
+    if handler is not None and threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGINT, handler)

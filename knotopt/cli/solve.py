@@ -90,6 +90,45 @@ def solve(
             show_default=False,
         ),
     ] = None,
+    verify_physics: Annotated[
+        bool,
+        typer.Option(
+            "--verify-physics",
+            help="Fly the set in simulation; while it does not tie the knot, cut it off and solve "
+            "again.",
+        ),
+    ] = False,
+    noise: Annotated[
+        float | None,
+        typer.Option(
+            help="Of the robots' positions in disturbed flights [m]; 0.01 by default.", metavar="M"
+        ),
+    ] = None,
+    trials: Annotated[
+        int | None,
+        typer.Option(
+            help="Disturbed flights that a set must tie in, beside the undisturbed one; 3 by "
+            "default.",
+        ),
+    ] = None,
+    physics_budget: Annotated[
+        float | None,
+        typer.Option(help="Fly no further set after so many seconds.", metavar="S"),
+    ] = None,
+    max_cut: Annotated[
+        int | None,
+        typer.Option(
+            help="Fly no further set once so many are cut off; 20 unless a budget is given."
+        ),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            help="With --verify-physics: write the answer as JSON; a run that is interrupted, or "
+            "out of budget, goes on where it stopped.",
+            metavar="FILE",
+        ),
+    ] = None,
     time_limit: TimeLimitOption = None,
     gap: Annotated[float, typer.Option(help="Relative gap that is good enough.")] = 0.0,
     threads: Annotated[int, typer.Option(help="Threads of the solver.")] = 1,
@@ -109,6 +148,7 @@ def solve(
     """
     from knotopt.cable.cut import crossing_free_cuts
     from knotopt.catalogue.lookup import find_knot
+    from knotopt.cli.solve_flown import FlightTests, fly_sets, show_flown
     from knotopt.supports.minimal import all_minimal
     from knotopt.supports.requirements import Requirements
     from knotopt.supports.search import supports_by_cut
@@ -135,6 +175,16 @@ def solve(
             param_hint="--forbid, --force",
         )
     _check_outputs(plot, export)
+    tests = FlightTests(noise, trials, physics_budget, max_cut, out)
+    if verify_physics:
+        others = {"--all": every, "--diagrams": diagrams > 1, "--max-robots": max_robots}
+        _check_verification(cut, others)
+        flown = fly_sets(named, asked, cut, tests, solver=solver, limits=limits)
+        tied = flown.status == "tied"
+        written = _write(named.name, flown.result, plot if tied else None, export)
+        show_flown(named, flown, written, as_json=as_json)
+        raise typer.Exit(0 if tied else 1)
+    tests.check_unused()
     if cut == "all":
         cuts = crossing_free_cuts(named.diagram)
         found = supports_by_cut(named.diagram, asked, cuts=cuts, solver=solver, limits=limits)
@@ -171,6 +221,16 @@ def _check_options(cut: str, diagrams: int, about_one_cut: dict[str, Any]) -> No
                 )
     if diagrams > 1 and cut != "best":
         raise typer.BadParameter("goes with --cut best", param_hint="--diagrams")
+
+
+def _check_verification(cut: str, others: dict[str, Any]) -> None:
+    if cut == "all":
+        raise typer.BadParameter(
+            "with --verify-physics, give --cut best or a cut's name", param_hint="--cut"
+        )
+    for option, value in others.items():
+        if value:
+            raise typer.BadParameter("does not go with --verify-physics", param_hint=option)
 
 
 def _check_outputs(plot: Path | None, export: Path | None) -> None:

@@ -68,7 +68,10 @@ def show_sets(sets: Enumeration, count: int) -> None:
         print("  " + (" ".join(f"p{k}" for k in each) or "no supports"))
 
 
-def show_search(title: str, search: CutSearch, tried: DiagramSearch | None) -> None:
+def show_search(
+    title: str, search: CutSearch, tried: DiagramSearch | None, cut_off: int = 0
+) -> None:
+    """The best cut's set; `cut_off` says how many smaller ones were ruled out by hand."""
     from knotopt.cli.drawing import LEADER, SUPPORT, TAIL, draw_text
     from knotopt.supports.support_set import format_supports
 
@@ -94,7 +97,7 @@ def show_search(title: str, search: CutSearch, tried: DiagramSearch | None) -> N
         clearance = f"{result.smallest_opening:.3f} grid steps: the smallest opening"
     facts = [
         ("formulation", f"{asked.formulation}, threading {asked.threading}{asked_in_words(asked)}"),
-        ("proven", _proof(search)),
+        ("proven", _proof(search) + (f" but for {cut_off} cut off" if cut_off else "")),
         ("bound", f"{_bound(search)}, on this cut {solution.status} ({solution.raw_status})"),
         ("checked", "open by the definition" if result.report.is_open else "NOT open"),
         ("clearance", clearance),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
+from itertools import chain
 
 from knotopt.errors import RequirementError
 from knotopt.supports.threading import Threading
@@ -41,6 +42,9 @@ class Requirements:
         the span being flown, is within this distance of the threading point [grid steps].
     forbidden, forced : tuple of int
         Turning points (1-based) that must not, or must, carry a robot.
+    excluded : tuple of tuple of int
+        Sets of supports, without p_1 and p_n, that are not the answer; sets that contain one, or
+        are part of one, still may be.
     max_robots : int, optional
         At most so many robots, the two lifting ones included; the smallest opening is then
         maximised instead of the number of robots minimised.
@@ -68,6 +72,7 @@ class Requirements:
     reach: float | None = None
     forbidden: tuple[int, ...] = ()
     forced: tuple[int, ...] = ()
+    excluded: tuple[tuple[int, ...], ...] = ()
     max_robots: int | None = None
 
     def __init__(
@@ -81,6 +86,7 @@ class Requirements:
         reach: float | None = None,
         forbidden: tuple[int, ...] = (),
         forced: tuple[int, ...] = (),
+        excluded: tuple[tuple[int, ...], ...] = (),
         max_robots: int | None = None,
     ) -> None:
         if openness is not None and max_robots is not None:
@@ -101,11 +107,13 @@ class Requirements:
             "reach": _positive(reach, "the reach"),
             "forbidden": tuple(sorted(set(forbidden))),
             "forced": tuple(sorted(set(forced))),
+            "excluded": tuple(sorted({tuple(sorted(set(each))) for each in excluded})),
             "max_robots": max_robots,
         }
         for name, value in fields.items():
             object.__setattr__(self, name, value)
-        for number in (*self.forced, *self.forbidden, *([max_robots] if max_robots else [])):
+        points = (*self.forced, *self.forbidden, *chain(*self.excluded))
+        for number in (*points, *([max_robots] if max_robots else [])):
             if not isinstance(number, int) or isinstance(number, bool):
                 raise RequirementError(f"turning points and robots are counted, not {number!r}")
         for point in self.forced:
@@ -122,12 +130,14 @@ class Requirements:
         RequirementError
             One does not, or an end of the cable is to have no robot.
         """
-        for point in (*self.forced, *self.forbidden):
+        for point in (*self.forced, *self.forbidden, *chain(*self.excluded)):
             if not 1 <= point <= count:
                 raise RequirementError(f"p{point}: the cable's turning points are p1 to p{count}")
         for end in (1, count):
             if end in self.forbidden:
                 raise RequirementError(f"p{end} is an end of the cable: a lifting robot is there")
+            if any(end in each for each in self.excluded):
+                raise RequirementError(f"p{end} is an end of the cable and part of no excluded set")
 
 
 def _member(kind: type[StrEnum], value: str, what: str) -> StrEnum:

@@ -40,6 +40,7 @@ def compile_team(regions: Regions, requirements: Requirements) -> Team:
         reach=tuple(_reach(regions, requirements)) if requirements.reach is not None else (),
         forbidden=requirements.forbidden,
         forced=requirements.forced,
+        excluded=requirements.excluded,
         at_most=requirements.max_robots,
     )
 

@@ -1,0 +1,280 @@
+"""`knotopt solve --verify-physics`: sets are flown until one ties the knot."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import json
+import sys
+from contextlib import ExitStack
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from knotopt.cli.output import (
+    print_facts,
+    print_json,
+    print_note,
+    print_table,
+    print_written,
+    run_header,
+)
+from knotopt.cli.solve_report import search_json, show_search
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from formulations.solution import Limits
+    from knotopt.catalogue.lookup import NamedDiagram
+    from knotopt.supports.flown import CutOff, FlownResult
+    from knotopt.supports.requirements import Requirements
+
+
+@dataclass(frozen=True)
+class FlightTests:
+    """The options of the flights; None for what is not given."""
+
+    noise: float | None
+    trials: int | None
+    seconds: float | None
+    max_cut: int | None
+    out: Path | None
+
+    def check_unused(self) -> None:
+        """Without flights none of them makes sense."""
+        names = {"seconds": "--physics-budget", "max_cut": "--max-cut"}
+        for field in fields(self):
+            if getattr(self, field.name) is not None:
+                raise typer.BadParameter(
+                    "goes with --verify-physics",
+                    param_hint=names.get(field.name, f"--{field.name}"),
+                )
+
+
+class _UnfinishedError(Exception):
+    """The search ended at a limit: a later run may go on."""
+
+
+def fly_sets(
+    named: NamedDiagram,
+    asked: Requirements,
+    cut: str,
+    tests: FlightTests,
+    *,
+    solver: str,
+    limits: Limits,
+) -> FlownResult:
+    """Fly sets until one ties the knot; write the answer to the file asked for."""
+    from knotopt.cable.cut import Cut
+    from knotopt.errors import OutputError
+    from knotopt.files import resumable_lines, write_atomically
+    from knotopt.supports import flown
+
+    out = tests.out
+    if out is not None and out.suffix.lower() != ".json":
+        raise OutputError(f"{out}: the answer is written as .json")
+    flown.require_simulation()
+    noise = flown.NOISE if tests.noise is None else tests.noise
+    trials = flown.TRIALS if tests.trials is None else tests.trials
+
+    def search(
+        known: tuple[CutOff, ...], keep: Callable[[CutOff], None] | None = None
+    ) -> FlownResult:
+        with ExitStack() as stack:
+            return flown.solve_flown(
+                named.name,
+                named.diagram,
+                asked,
+                cuts=None if cut == "best" else [Cut.parse(cut, named.diagram.size)],
+                noise=noise,
+                trials=trials,
+                seconds=tests.seconds,
+                max_cut=tests.max_cut,
+                solver=solver,
+                limits=limits,
+                known=known,
+                on_cut_off=keep,
+                tell=_teller(stack),
+            )
+
+    if out is None:
+        return search(())
+    versions = [importlib.metadata.version(package) for package in ("knotopt", "mujoco")]
+    settings = ["verify-physics", repr(asked), cut, noise, trials, versions]
+    found: list[FlownResult] = []
+
+    def text(_: list[str]) -> str:
+        return json.dumps(flown_json(named, found[0]), indent=1) + "\n"
+
+    done = 0
+    try:
+        with resumable_lines(out, run_header("solve", settings, [named]), text) as lines:
+            known = tuple(flown.CutOff.from_json(json.loads(line)) for line in lines.done)
+            done = len(known)
+            if known:
+                _note(f"cut off before, from {out}.partial: {_sets(done)}")
+
+            def keep(each: CutOff) -> None:
+                nonlocal done
+                lines.write(json.dumps(each.to_json()))
+                done += 1
+
+            found.append(search(known, keep))
+            if found[0].status in (flown.FlownStatus.BUDGET, flown.FlownStatus.UNKNOWN):
+                raise _UnfinishedError
+    except _UnfinishedError:
+        write_atomically(out, text([]))
+        _note(f"{_sets(done)} cut off: {out}.partial; with a larger budget it goes on from there")
+    except KeyboardInterrupt:
+        if done:
+            _note(
+                f"stopped, {_sets(done)} cut off: {out}.partial; "
+                "the same command goes on from there"
+            )
+        raise
+    return found[0]
+
+
+def flown_json(named: NamedDiagram, flown: FlownResult) -> dict[str, Any]:
+    """What `--json` says."""
+    flight = flown.flight
+    content = search_json(named.name, flown.search, None)
+    for key in ("proven", "proven_over_cuts"):  # smaller sets that were cut off are open as well
+        content[key] = content[key] and not flown.smaller_cut_off
+    return content | {
+        "physics": {
+            "status": str(flown.status),
+            "noise": flown.noise,
+            "trials": flown.trials,
+            "tied": [] if flight is None else [str(v) for v in (flight.verdict, *flight.trials)],
+            "proven_but_for_cut_off": flown.is_proven,
+            "cut_off_by_robots": {str(k): count for k, count in flown.cut_off_by_robots.items()},
+            "cut_off": [
+                each.to_json() | {"robots": each.robots, "tied_instead": each.tied_instead}
+                for each in flown.cut_off
+            ],
+            "claim": claim(flown),
+        }
+    }
+
+
+def show_flown(
+    named: NamedDiagram, flown: FlownResult, written: list[Path], *, as_json: bool
+) -> None:
+    """The set that ties, what was cut off, what is proven, and the files `written`."""
+    if as_json:
+        print_json(flown_json(named, flown))
+        return
+    title = f"{named.name} ({named.source})"
+    best = flown.result
+    if flown.status == "tied":
+        show_search(title, flown.search, None, flown.smaller_cut_off)
+    elif not flown.cut_off and not best.found:
+        show_search(title, flown.search, None)
+        return
+    counts = ", ".join(f"{n} of {robots} robots" for robots, n in flown.cut_off_by_robots.items())
+    facts = [("cut off in flight", counts or "none")]
+    if flown.status == "tied":
+        facts.insert(0, ("tied in simulation", _flights(flown)))
+    elif best.found:
+        points = " ".join(f"p{k}" for k in best.supports) or "no supports"
+        words = f"{best.robots} robots, cut {best.cable.cut}, {points}: not flown"
+        facts.append(("next set", words))
+    print(f"{title}: {_ENDED[flown.status]}" if flown.status != "tied" else "")
+    print_facts(facts)
+    if flown.cut_off:
+        print_table(
+            ("robots", "cut", "supports", "tied instead", "trials", "first crossing that failed"),
+            [
+                (
+                    each.robots,
+                    each.cut,
+                    " ".join(f"p{k}" for k in each.supports) or "none",
+                    each.tied_instead,
+                    _tied_trials(each),
+                    each.failed,
+                )
+                for each in flown.cut_off
+            ],
+        )
+    print()
+    print_note(claim(flown))
+    for path in written:
+        print_written(path)
+
+
+_ENDED = {
+    "budget": "no set tied the knot before the budget ended",
+    "no set": "none of the sets that meet the requirements tied the knot",
+    "unknown": "no set tied the knot, and the solver stopped before it had another",
+}
+
+
+def claim(flown: FlownResult) -> str:
+    """What is proven, what was seen in flights, and what is not known."""
+    best, count, smaller = flown.result, len(flown.cut_off), flown.smaller_cut_off
+    rows = f"the rows of `{best.requirements.formulation}`"
+    many = len(flown.search.outcomes)
+    where = f"over the {many} cuts searched" if many > 1 else "on this cut"
+    sentences = []
+    if flown.is_proven:
+        but = f", but for {smaller} cut off" if smaller else ""
+        sentences.append(
+            f"Proven: no set of fewer than {best.robots} robots meets {rows} {where}{but}."
+        )
+    elif flown.status == "no set":
+        sentences.append(f"Proven: no set but the {count} cut off meets {rows} {where}.")
+    else:
+        sentences.append(f"The solver stopped early: smaller sets may meet {rows}.")
+    if flown.status == "tied":
+        sentences.append(f"Seen in simulation: it tied the knot {_flights(flown)}.")
+    if count:
+        sentences.append(
+            "The sets cut off failed in the flights tried; that is no proof that they, flown "
+            "otherwise, cannot tie the knot."
+        )
+    sentences.append(
+        f"Sets that do not meet {rows} were not flown. A knot counts as tied by its Alexander "
+        "polynomial, which does not tell mirror images apart."
+    )
+    return " ".join(sentences)
+
+
+def _flights(flown: FlownResult) -> str:
+    return (
+        f"undisturbed and in {flown.trials} of {flown.trials} flights with noise of "
+        f"{flown.noise:g} m (seeds 1 to {flown.trials})"
+    )
+
+
+def _tied_trials(each: CutOff) -> str:
+    if not each.trials:
+        return "-"
+    return f"{sum(trial.outcome == 'tied' for trial in each.trials)} of {len(each.trials)}"
+
+
+def _teller(stack: ExitStack) -> Callable[[str], None]:
+    """Sets go to the error stream line by line; what happens within one to its last line."""
+    from rich.console import Console
+
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        return lambda text: _note(text) if text.startswith("set ") else None
+    status = stack.enter_context(console.status("solving"))
+
+    def tell(text: str) -> None:
+        if text.startswith("set "):
+            console.print(text, markup=False, highlight=False)
+        else:
+            status.update(text)
+
+    return tell
+
+
+def _sets(count: int) -> str:
+    return "1 set" if count == 1 else f"{count} sets"
+
+
+def _note(text: str) -> None:
+    print(text, file=sys.stderr)
