@@ -26,6 +26,7 @@ from benchmarks import (  # noqa: F401 -- they register themselves
     paths_growth,
     paths_stiffness,
     paths_tradeoff,
+    physics,
     solvers,
     startup,
 )
@@ -89,6 +90,7 @@ def machine_facts() -> dict[str, Any]:
         "casadi",
         "pythoncdt",
         "shapely",
+        "mujoco",
     )
     return {
         "python": platform.python_version(),

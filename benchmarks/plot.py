@@ -128,8 +128,8 @@ def robots_figure(rows: list[dict[str, Any]]) -> Figure:
 
 
 def main() -> None:
-    """Write summary.md (LCF), formulations.md, paths.md and the figures beside the results."""
-    from benchmarks import plot_formulations, plot_paths
+    """Write summary.md (LCF), the other pages and the figures beside the results."""
+    from benchmarks import plot_formulations, plot_paths, plot_physics
 
     _, startup = load("startup")
     header, catalogue = load("lcf_catalogue")
@@ -155,7 +155,12 @@ def main() -> None:
     write_atomically(RESULTS / "summary.md", "\n\n".join(parts) + "\n")
     save_figure(robots_figure(catalogue), RESULTS / "robots.png")
     save_figure(growth_figure(growth), RESULTS / "growth.png")
-    for page, source in (("formulations.md", plot_formulations), ("paths.md", plot_paths)):
+    pages = {
+        "formulations.md": plot_formulations,
+        "paths.md": plot_paths,
+        "physics.md": plot_physics,
+    }
+    for page, source in pages.items():
         parts, figures = source.write_parts()
         write_atomically(RESULTS / page, "\n\n".join(parts) + "\n")
         for name, figure in figures.items():

@@ -203,15 +203,16 @@ def test_prove_goes_on_where_it_stopped(
 
 
 def test_the_readme_shows_what_is_printed(cli: Cli) -> None:
-    """Each `$ knotopt ...` in README.md, between the dots; of paths, all but the numbers."""
+    """Each `$ knotopt ...` in README.md, between the dots; of paths and flights, no numbers."""
     readme = (Path(__file__).parents[1] / "README.md").read_text()
     blocks = re.findall(r"```console\n\$ knotopt ([^\n]*)\n(.*?)```", readme, re.DOTALL)
-    assert len(blocks) == 5
+    assert len(blocks) == 6
     for command, shown in blocks:
         cli.monkeypatch.chdir(Path("/"))
-        _, out, _ = cli(*shlex.split(command.removesuffix(" --plot path.png")))
+        arguments = re.sub(r" --(plot path.png|out trefoil)$", "", command)
+        _, out, _ = cli(*shlex.split(arguments))
         pieces = shown.split("...\n")
-        if command.startswith("path"):
+        if command.startswith(("path", "fly")):
             texts = (re.sub(r"[\d.]*\d|[ ─]+", " ", text) for text in (out, *pieces))
             out, *pieces = (re.sub(r" *\n *", "\n", text) for text in texts)
         at = 0
