@@ -20,6 +20,11 @@ from .diagram.grid import GridDiagram as GridDiagram
 from .diagram.reading import read_grid as read_grid
 from .diagram.simplify import simplify as simplify
 from .errors import KnotoptError as KnotoptError
+from .flight.limits import FlightLimits as FlightLimits
+from .flight.plan import FlightPlan as FlightPlan
+from .flight.planner import plan_flight as plan_flight
+from .flight.rehearsal import Rehearsal as Rehearsal
+from .flight.rehearsal import rehearse_flight as rehearse_flight
 from .path.curve import Curve as Curve
 from .path.optimise import optimise_path as optimise_path
 from .path.relaxation import Relaxation as Relaxation

@@ -13,13 +13,14 @@ from numpy.typing import NDArray
 from knotopt import Cable, shipped_knots
 from knotopt.catalogue.table1_grids import table1_grids
 from knotopt.errors import RequirementError
+from knotopt.flight.examine import examine_plan
 from knotopt.flight.limits import FlightLimits
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.planner import plan_flight
 from knotopt.path.world import World
 from knotopt.supports.choice import choose_supports
 from knotopt.supports.requirements import Requirements
-from knotopt.verify.flight_limits import LimitsReport, check_limits
+from knotopt.verify.flight_limits import LimitsReport
 from knotopt.verify.flight_word import compare_words, plan_word
 
 FloatArray = NDArray[np.float64]
@@ -42,20 +43,7 @@ def planned(row: str, choice: str, schedule: str = "optimised") -> FlightPlan:
 
 
 def measured(plan: FlightPlan) -> LimitsReport:
-    limits, world = plan.limits, plan.world
-    return check_limits(
-        plan.times,
-        plan.positions,
-        plan.lengths,
-        speed=limits.speed,
-        acceleration=limits.acceleration,
-        separation=limits.separation,
-        downwash=limits.downwash,
-        floor=world.floor,
-        ceiling=world.ceiling,
-        hover_before=limits.hover_before,
-        hover_after=limits.hover_after,
-    )
+    return examine_plan(plan).limits
 
 
 def flown(track: FloatArray) -> FloatArray:

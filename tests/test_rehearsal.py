@@ -11,6 +11,7 @@ pytest.importorskip("mujoco")
 
 from knotopt import Cable, shipped_knots
 from knotopt.errors import RequirementError
+from knotopt.flight.examine import examine_plan
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.observed import Observer
 from knotopt.flight.plan import FlightPlan
@@ -23,24 +24,11 @@ from knotopt.sim.simulation import Simulation
 from knotopt.sim.trials import fly_trial
 from knotopt.supports.choice import choose_supports
 from knotopt.supports.requirements import Requirements
-from knotopt.verify.flight_limits import LimitsReport, check_limits
+from knotopt.verify.flight_limits import LimitsReport
 
 
 def measured(plan: FlightPlan) -> LimitsReport:
-    limits, world = plan.limits, plan.world
-    return check_limits(
-        plan.times,
-        plan.positions,
-        plan.lengths,
-        speed=limits.speed,
-        acceleration=limits.acceleration,
-        separation=limits.separation,
-        downwash=limits.downwash,
-        floor=world.floor,
-        ceiling=world.ceiling,
-        hover_before=limits.hover_before,
-        hover_after=limits.hover_after,
-    )
+    return examine_plan(plan).limits
 
 
 @cache

@@ -13,7 +13,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from knotopt.flight.plan import FlightPlan, PlannedCrossing
+from knotopt.flight.plan import FlightPlan, FloatArray, PlannedCrossing
 from knotopt.flight.record import FlightRecord
 from knotopt.verify.flight import leader_events, nearest_approaches
 from knotopt.verify.flight_limits import LimitsReport, check_limits
@@ -83,20 +83,7 @@ def examine_plan(plan: FlightPlan) -> Examination:
     A plan that was rehearsed flies past cable as it lay in the simulation; the model may then find
     other crossings. The spacing is measured and not judged: it is along the route, which may bend.
     """
-    limits, world = plan.limits, plan.world
-    report = check_limits(
-        plan.times,
-        plan.positions,
-        plan.lengths,
-        speed=limits.speed,
-        acceleration=limits.acceleration,
-        separation=limits.separation,
-        downwash=limits.downwash,
-        floor=world.floor,
-        ceiling=world.ceiling,
-        hover_before=limits.hover_before,
-        hover_after=limits.hover_after,
-    )
+    report = _limits(plan, plan.times, plan.positions, hover=True)
     track = plan.positions[:, -1]
     moved = np.linalg.norm(np.diff(track, axis=0), axis=1)
     along = np.concatenate(([0.0], np.cumsum(moved)))
@@ -117,10 +104,21 @@ def examine_flight(plan: FlightPlan, record: FlightRecord) -> Examination:
     ValueError
         A record of other robots, or with positions that are no finite numbers.
     """
+    report = _limits(plan, record.times, record.robots, hover=False)
+    seen = (record.cable, record.held, plan.passes)
+    events = leader_events(record.times, *seen, clock=record.clock)
+    wanted = [(crossing.span, crossing.older) for crossing in plan.crossings]
+    near = nearest_approaches(*seen, record.clock, wanted)
+    return Examination(report, _rows(compare_words(plan.crossings, events, near)))
+
+
+def _limits(
+    plan: FlightPlan, times: FloatArray, robots: FloatArray, *, hover: bool
+) -> LimitsReport:
     limits, world = plan.limits, plan.world
-    report = check_limits(
-        record.times,
-        record.robots,
+    return check_limits(
+        times,
+        robots,
         plan.lengths,
         speed=limits.speed,
         acceleration=limits.acceleration,
@@ -128,12 +126,9 @@ def examine_flight(plan: FlightPlan, record: FlightRecord) -> Examination:
         downwash=limits.downwash,
         floor=world.floor,
         ceiling=world.ceiling,
+        hover_before=limits.hover_before if hover else 0.0,
+        hover_after=limits.hover_after if hover else 0.0,
     )
-    seen = (record.cable, record.held, plan.passes)
-    events = leader_events(record.times, *seen, clock=record.clock)
-    wanted = [(crossing.span, crossing.older) for crossing in plan.crossings]
-    near = nearest_approaches(*seen, record.clock, wanted)
-    return Examination(report, _rows(compare_words(plan.crossings, events, near)))
 
 
 def _rows(rows: Sequence[WordRow]) -> tuple[CrossingRow, ...]:
