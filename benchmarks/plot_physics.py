@@ -7,7 +7,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from benchmarks.plot import load
+from benchmarks import plot
 from knotopt.sim.trials import wilson_interval
 
 Rows = list[dict[str, Any]]
@@ -85,8 +85,7 @@ def confusion_table(rows: Rows) -> str:
 
 def write_parts() -> tuple[list[str], dict[str, Figure]]:
     """The parts of the page."""
-    header, rows = load("physics")
-    _, subsets = load("physics_subsets")
+    header, rows = plot.load("physics")
     machine = ", ".join(f"{key} {value}" for key, value in header["machine"].items())
     parts = [
         "# Flights in physics",
@@ -100,10 +99,14 @@ def write_parts() -> tuple[list[str], dict[str, Figure]]:
         rates_table(rows),
         "## Set by set",
         flown_table(rows),
-        "## Subsets of supports on modelled routes, against the models (r = 0.25)",
-        confusion_table(subsets),
-        "All 256 subsets, one undisturbed flight each.",
     ]
+    if (plot.RESULTS / "physics_subsets.jsonl").exists():
+        _, subsets = plot.load("physics_subsets")
+        parts += [
+            "## Subsets of supports on modelled routes, against the models (r = 0.25)",
+            confusion_table(subsets),
+            "One undisturbed flight each.",
+        ]
     return parts, {}
 
 
