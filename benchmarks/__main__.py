@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from joblib import Parallel, delayed
 from rich.progress import track
 
 from benchmarks import (  # noqa: F401 -- they register themselves
@@ -27,10 +28,11 @@ from benchmarks import (  # noqa: F401 -- they register themselves
     paths_stiffness,
     paths_tradeoff,
     physics,
+    physics_subsets,
     solvers,
     startup,
 )
-from benchmarks.registry import BENCHMARKS, Benchmark
+from benchmarks.registry import BENCHMARKS, Benchmark, Case
 from knotopt.files import resumable_lines
 
 RESULTS = Path(__file__).parent / "results"
@@ -49,6 +51,9 @@ def run(
     names: Annotated[list[str] | None, typer.Argument(help="By default all of them.")] = None,
     out: Annotated[Path, typer.Option(help="Folder for the results.")] = RESULTS,
     smoke: Annotated[bool, typer.Option("--smoke", help="A few small cases each.")] = False,
+    jobs: Annotated[
+        int, typer.Option(min=1, help="Cases at a time; times are to be measured one at a time.")
+    ] = 1,
 ) -> None:
     """Run benchmarks and write their results as JSON lines."""
     chosen = names or list(BENCHMARKS)
@@ -57,23 +62,38 @@ def run(
         raise typer.BadParameter(f"no benchmark is named {unknown[0]!r}: {', '.join(BENCHMARKS)}")
     out.mkdir(parents=True, exist_ok=True)
     for name in chosen:
-        print(f"written: {run_benchmark(BENCHMARKS[name], out, smoke=smoke)}")
+        print(f"written: {run_benchmark(BENCHMARKS[name], out, smoke=smoke, jobs=jobs)}")
 
 
-def run_benchmark(benchmark: Benchmark, out: Path, *, smoke: bool = False) -> Path:
+def run_benchmark(benchmark: Benchmark, out: Path, *, smoke: bool = False, jobs: int = 1) -> Path:
     """Measure every case not yet in the partial file; return the path of the complete one."""
     final = out / f"{benchmark.name}.jsonl"
     header = {"benchmark": benchmark.name, "smoke": smoke, "machine": machine_facts()}
 
+    cases = list(benchmark.cases(smoke))
+    order = {json.dumps(case): number for number, case in enumerate(cases)}
+
     def finish(lines: list[str]) -> str:
-        return "".join(f"{line}\n" for line in (json.dumps(header), *lines))
+        rows = sorted(lines, key=lambda line: order[_case(line)])
+        return "".join(f"{line}\n" for line in (json.dumps(header), *rows))
 
     with resumable_lines(final, json.dumps(header), finish) as lines:
-        done = {json.dumps(json.loads(line)["case"]) for line in lines.done}
-        for case in track(list(benchmark.cases(smoke)), benchmark.name):
-            if json.dumps(case) not in done:
-                lines.write(json.dumps({"case": case, "result": benchmark.measure(case)}))
+        done = {_case(line) for line in lines.done}
+        left = [case for case in cases if json.dumps(case) not in done]
+        measured = Parallel(jobs, return_as="generator_unordered")(
+            delayed(_measured)(benchmark, case) for case in left
+        )
+        for line in track(measured, benchmark.name, len(left)):
+            lines.write(line)
     return final
+
+
+def _measured(benchmark: Benchmark, case: Case) -> str:
+    return json.dumps({"case": case, "result": benchmark.measure(case)})
+
+
+def _case(line: str) -> str:
+    return json.dumps(json.loads(line)["case"])
 
 
 def machine_facts() -> dict[str, Any]:

@@ -16,6 +16,8 @@ from knotopt.cli.output import (
     JsonOption,
     KnotArgument,
     OpennessOption,
+    SupportsCutOption,
+    SupportsOption,
     print_json,
     print_written,
     track,
@@ -37,16 +39,8 @@ OPENNESS = 0.25  # of the smallest set unless another is asked for [grid steps]
 
 def fly(
     knot: KnotArgument,
-    supports: Annotated[
-        str,
-        typer.Option(
-            help="milp (the provably smallest set), lcf, all (turning points), or a .json file "
-            "such as solve --json and lcf --json print."
-        ),
-    ] = "milp",
-    cut: Annotated[
-        str, typer.Option(help="best (for those supports; a file's own), or one: L+ L- ... row5-.")
-    ] = "best",
+    supports: SupportsOption = "milp",
+    cut: SupportsCutOption = "best",
     formulation: Annotated[
         str | None,
         typer.Option(

@@ -40,7 +40,16 @@ LayeredOption = Annotated[
     bool,
     typer.Option("--layered", help="Also drop supports that lie inside another active region."),
 ]
-
+SupportsOption = Annotated[
+    str,
+    typer.Option(
+        help="milp (the provably smallest set), lcf, all (turning points), or a .json file "
+        "such as solve --json and lcf --json print."
+    ),
+]
+SupportsCutOption = Annotated[
+    str, typer.Option(help="best (for those supports; a file's own), or one: L+ L- ... row5-.")
+]
 
 FormulationOption = Annotated[
     str,

@@ -14,6 +14,8 @@ from knotopt.cli.output import (
     KnotArgument,
     OpennessOption,
     PlotOption,
+    SupportsCutOption,
+    SupportsOption,
     TimeLimitOption,
     print_facts,
     print_json,
@@ -32,19 +34,11 @@ SAMPLES = 0.05  # between the rows of a curve's file [grid steps]
 
 def path(
     knot: KnotArgument,
-    supports: Annotated[
-        str,
-        typer.Option(
-            help="milp (the provably smallest set), lcf, all (turning points), or a .json file "
-            "such as solve --json and lcf --json print."
-        ),
-    ] = "milp",
+    supports: SupportsOption = "milp",
     method: Annotated[
         str, typer.Option(help="nlp (the program), relaxation (the paper's springs), or both.")
     ] = "nlp",
-    cut: Annotated[
-        str, typer.Option(help="best (for those supports; a file's own), or one: L+ L- ... row5-.")
-    ] = "best",
+    cut: SupportsCutOption = "best",
     formulation: FormulationOption = "opening",
     r: OpennessOption = None,
     clearance: Annotated[

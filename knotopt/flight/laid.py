@@ -1,14 +1,50 @@
-"""Cable as it hangs between two hovering robots: straight in plan, a catenary in height."""
+"""Cable that is laid: as it lies, or as it hangs between two hovering robots by the model.
+
+The model is straight in plan and a catenary in height.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from knotopt.flight.router import Gate
+
 FloatArray = NDArray[np.float64]
+
+THIN = 0.02  # detail of laid cable that is left out in plan [grid steps]
+
+
+@dataclass(frozen=True)
+class Laid:
+    """Cable that is laid already.
+
+    Attributes
+    ----------
+    spans : sequence of float arrays, shape (m, 3)
+        Spans 1, 2, ... from robot to robot [grid steps]; heights are above the robots'.
+    """
+
+    spans: Sequence[FloatArray]
+
+    @property
+    def in_plan(self) -> list[FloatArray]:
+        """The spans seen from above, without what is too fine, shapes (m, 2)."""
+        lines = [shapely.LineString(points[:, :2]).simplify(THIN) for points in self.spans]
+        return [np.array(line.coords) for line in lines]
+
+    def height(self, gate: Gate) -> float:
+        """Height of the older cable in a gate."""
+        span = self.spans[gate.letter.older - 1]
+        chords = np.linalg.norm(np.diff(span[:, :2], axis=0), axis=1)
+        along = np.concatenate(([0.0], np.cumsum(chords)))
+        return float(np.interp(gate.along, along, span[:, 2]))
 
 
 def hanging_cable(start: FloatArray, end: FloatArray, length: float, count: int) -> FloatArray:

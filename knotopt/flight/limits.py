@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
+from knotopt.checks import check_not_negative
 from knotopt.errors import RequirementError
 from knotopt.path.world import World
 
@@ -67,10 +68,7 @@ class FlightLimits:
     hover_after: float = 3.0
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if not isinstance(value, int | float) or not math.isfinite(value) or value < 0:
-                raise RequirementError(f"{field.name} is a number from 0 up, not {value!r}")
+        check_not_negative(self, RANGES, "a number from 0 up")
         for name, (least, most, unit) in RANGES.items():
             value = getattr(self, name)
             if least and not value:

@@ -8,7 +8,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from knotopt.flight.planner import FlightPlanner, Laid
+from knotopt.flight.laid import Laid
+from knotopt.flight.planner import FlightPlanner
 from knotopt.flight.route import SpanRoute
 from knotopt.flight.word import Letter
 from knotopt.sim.simulation import Simulation

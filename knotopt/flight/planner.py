@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 from scipy.spatial.distance import pdist
 
@@ -14,11 +12,11 @@ from formulations.schedule import Schedule, fastest_schedule, steady_schedule
 from knotopt.cable.cable import Cable
 from knotopt.errors import RequirementError
 from knotopt.flight.formation import Formation
-from knotopt.flight.laid import hanging_cable
+from knotopt.flight.laid import Laid, hanging_cable
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan, PlannedCrossing
-from knotopt.flight.route import HeightShape, Passage, SpanRoute, build_route
-from knotopt.flight.router import Crossed, Gate, Router, RouteShape, Way
+from knotopt.flight.route import Passage, SpanRoute, SpanShape, build_route
+from knotopt.flight.router import Crossed, Router, RouteShape, Way
 from knotopt.flight.word import span_words
 from knotopt.path.mesh import robot_times
 from knotopt.path.world import World
@@ -28,45 +26,10 @@ FloatArray = NDArray[np.float64]
 INTERVAL = 0.05  # between samples of a plan [s]
 MARGIN = 0.95  # share of speed and acceleration that a schedule uses
 OUTSIDE = 20.0  # as far as no route goes [grid steps]
-THIN = 0.02  # detail of laid cable that is left out in plan [grid steps]
 CLEAR = 1.15  # times the separation that routes keep from hovering robots
 APART = 1.03  # of the separation that robots keep at nodes
 WIDER = (1.0, 1.15, 1.3, 1.5, 1.75, 2.0)  # spacings tried
 SCHEDULES = ("optimised", "fixed")
-
-
-@dataclass(frozen=True)
-class SpanShape:
-    """How one span is flown: the way in plan, and the heights."""
-
-    route: RouteShape = field(default_factory=RouteShape)
-    heights: HeightShape = field(default_factory=HeightShape)
-
-
-@dataclass(frozen=True)
-class Laid:
-    """Cable that is laid already.
-
-    Attributes
-    ----------
-    spans : sequence of float arrays, shape (m, 3)
-        Spans 1, 2, ... from robot to robot [grid steps]; heights are above the robots'.
-    """
-
-    spans: Sequence[FloatArray]
-
-    @property
-    def in_plan(self) -> list[FloatArray]:
-        """The spans seen from above, without what is too fine, shapes (m, 2)."""
-        lines = [shapely.LineString(points[:, :2]).simplify(THIN) for points in self.spans]
-        return [np.array(line.coords) for line in lines]
-
-    def height(self, gate: Gate) -> float:
-        """Height of the older cable in a gate."""
-        span = self.spans[gate.letter.older - 1]
-        chords = np.linalg.norm(np.diff(span[:, :2], axis=0), axis=1)
-        along = np.concatenate(([0.0], np.cumsum(chords)))
-        return float(np.interp(gate.along, along, span[:, 2]))
 
 
 class FlightPlanner:
@@ -210,7 +173,7 @@ class FlightPlanner:
         for span in range(len(self.spans) + 1, self.robots):
             laid = self.modelled(span - 1)
             too_low: RequirementError | None = None
-            for tried in _narrower(shape):
+            for tried in shape.narrower:
                 try:
                     route = self.find_route(span, laid, tried)
                 except RequirementError as error:
@@ -345,24 +308,6 @@ def sample_times(count: int) -> FloatArray:
 def kept(limits: FlightLimits) -> tuple[float, float]:
     """Speed and acceleration that leave something for what happens between nodes."""
     return MARGIN * limits.speed, MARGIN * limits.acceleration
-
-
-def _narrower(shape: SpanShape) -> list[SpanShape]:
-    """A shape, and others that need less room."""
-    route, heights = shape.route, shape.heights
-    return [
-        SpanShape(
-            RouteShape(route.run * share, route.apart * share, route.clear * clear),
-            replace(heights, below=heights.below * depth),
-        )
-        for share, clear, depth in (
-            (1.0, 1.0, 1.0),
-            (1.0, 1.0, 0.5),
-            (0.75, 1.0, 1.0),
-            (0.5, 1.0, 1.0),
-            (0.5, 0.75, 0.5),
-        )
-    ]
 
 
 def plan_flight(

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from knotopt.checks import check_not_negative
 from knotopt.errors import RequirementError
 
 FloatArray = NDArray[np.float64]
@@ -48,9 +49,7 @@ class Disturbance:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        for name in ("noise", "gust"):
-            if not (_is_finite(value := getattr(self, name)) and value >= 0):
-                raise RequirementError(f"{name} is a number from 0 up, not {value!r}")
+        check_not_negative(self, ("noise", "gust"), "a number from 0 up")
         wind: object = self.wind
         if not isinstance(wind, tuple) or len(wind) != 2 or not all(map(_is_finite, wind)):
             raise RequirementError(f"wind is two numbers (x, y), not {wind!r}")

@@ -19,6 +19,7 @@ from knotopt.flight.plan import FlightPlan
 from knotopt.flight.planner import SCHEDULES, FlightPlanner
 from knotopt.flight.record import Disturbance, FlightRecord
 from knotopt.flight.rehearsed import SHAPES, RehearsedFlight
+from knotopt.flight.route import SpanShape
 from knotopt.path.world import World
 from knotopt.sim.judge import Outcome, Verdict
 from knotopt.sim.trials import fly_trial, fly_trials
@@ -28,6 +29,9 @@ TRIALS = tuple(Disturbance(noise=0.01, seed=seed) for seed in (101, 102, 103))
 
 ATTEMPTS = ((1.1, 0), (1.25, 0), (1.1, 1), (0.97, 0), (1.25, 2), (1.1, 3))
 """Cable given to spans with crossings, over what the first plan needs; the first shape tried."""
+
+MODELLED = ((1.0, SpanShape()), (0.5, SpanShape()), (1.0, SHAPES[0]), (0.5, SHAPES[0]))
+"""Modelled routes that are tried where no turning point is left out: share of the slack, shape."""
 
 WIDEN = 1.15  # of the file's spacing, where robots came too near each other
 MORE = 1.1  # cable of a span where robots got stuck
@@ -54,7 +58,8 @@ class Rehearsal:
     failed : tuple of str
         Crossings that no way tried made happen, in the order of flight.
     rehearsals, ways : int
-        Flights begun anew, and ways from crossing to crossing that were simulated.
+        Flights begun anew, and ways from crossing to crossing that were simulated; none where a
+        modelled route is flown.
     """
 
     plan: FlightPlan
@@ -78,6 +83,44 @@ class Rehearsal:
         return self.is_tied, self.separation >= 1, self.robust, -len(self.failed)
 
 
+class _Judge:
+    """Flies plans, undisturbed and disturbed, and keeps the best.
+
+    Parameters
+    ----------
+    tell : callable
+        Is told what came of each.
+    """
+
+    def __init__(self, tell: Callable[[str], None]) -> None:
+        self.tell = tell
+        self.best: Rehearsal | None = None
+
+    def fly(
+        self,
+        what: str,
+        plan: FlightPlan,
+        planner: FlightPlanner,
+        steady: float,
+        run: RehearsedFlight | None = None,
+    ) -> Rehearsal:
+        """Fly a plan of the planner's routes, found by `run` if by any."""
+        trial = fly_trial(plan)
+        robust = sum(each.is_tied for each in fly_trials(plan, TRIALS)) if trial.is_tied else 0
+        separation = planner.formation().separation
+        failed = () if run is None else tuple(run.failed)
+        found = Rehearsal(
+            plan, trial.record, trial.verdict, robust, separation, steady, failed, 0, 0
+        )
+        self.tell(
+            f"{what}, {plan.schedule} schedule: {trial.verdict}"
+            + (f"; disturbed {robust} of {len(TRIALS)}" if trial.is_tied else "")
+        )
+        if self.best is None or found.rank > self.best.rank:
+            self.best = found
+        return found
+
+
 def rehearse_flight(
     name: str,
     cable: Cable,
@@ -91,7 +134,8 @@ def rehearse_flight(
 ) -> Rehearsal:
     """Plan a flight, span by span, past the cable as it lies in a simulation.
 
-    With a robot at every turning point the modelled route is taken if it ties the knot.
+    With a robot at every turning point modelled routes are tried first, with the slack of the
+    limits and with half of it; the first that ties the knot, disturbed or not, is taken.
 
     Parameters
     ----------
@@ -113,63 +157,43 @@ def rehearse_flight(
         raise RequirementError(f"a schedule is one of {', '.join(SCHEDULES)}, not {schedule!r}")
     if attempts < 1:
         raise RequirementError(f"a flight is rehearsed once or more, not {attempts} times")
-    planner = FlightPlanner(cable, supports, world, limits or FlightLimits())
+    limits = limits or FlightLimits()
+    judge = _Judge(tell or (lambda _: None))
+    if len(supports) == len(cable.path) - 2:
+        for share, shape in MODELLED:
+            slack = share * limits.slack
+            planner = FlightPlanner(cable, supports, world, replace(limits, slack=slack))
+            planner.plan_routes(shape)
+            plan = planner.plan(name, chosen_by, schedule)
+            steady = planner.plan(name, chosen_by, "fixed").duration
+            found = judge.fly(f"modelled route, slack {slack:g}", plan, planner, steady)
+            if found.robust == len(TRIALS):
+                return found
+    planner = FlightPlanner(cable, supports, world, limits)
     planner.plan_routes(SHAPES[0])
     modelled = list(planner.spans)
     crosses = np.array([len(word) > 0 for word in planner.words])
     more = np.ones(len(crosses))  # cable, where robots got stuck
-    tell = tell or (lambda _: None)
     ways = 0
-    best: Rehearsal | None = None
-    if len(supports) == len(cable.path) - 2:  # nothing is left out: laid cable is the grid's
-        plan = planner.plan(name, chosen_by, schedule)
-        trial = fly_trial(plan)
-        robust = sum(each.is_tied for each in fly_trials(plan, TRIALS)) if trial.is_tied else 0
-        if robust == len(TRIALS):
-            steady = planner.plan(name, chosen_by, "fixed").duration
-            apart = planner.formation().separation
-            return Rehearsal(plan, trial.record, trial.verdict, robust, apart, steady, (), 0, 0)
     for number, (spare, first) in enumerate(ATTEMPTS[:attempts], 1):
         planner.spans[:] = modelled
         shapes = SHAPES[first:] + SHAPES[:first]
-        run = RehearsedFlight(planner, np.where(crosses, spare, 1.0) * more, shapes, tell)
+        run = RehearsedFlight(planner, np.where(crosses, spare, 1.0) * more, shapes, judge.tell)
         for span in range(1, planner.robots):
             run.fly_span(span)
             if run.stuck:
                 more[span - 1] *= MORE
                 break
         ways += run.ways
-        separation = planner.formation().separation
         plans = [run.rehearsed(name, chosen_by)]
-        steady = planner.plan(name, chosen_by, "fixed", run.lengths)
+        steady = planner.plan(name, chosen_by, "fixed", run.lengths).duration
         if not run.stuck:
-            optimised = schedule == "optimised"
-            plans.insert(
-                0, planner.plan(name, chosen_by, schedule, run.lengths) if optimised else steady
-            )
+            plans.insert(0, planner.plan(name, chosen_by, schedule, run.lengths))
         for plan in plans:
-            trial = fly_trial(plan)
-            robust = sum(each.is_tied for each in fly_trials(plan, TRIALS)) if trial.is_tied else 0
-            found = Rehearsal(
-                plan,
-                trial.record,
-                trial.verdict,
-                robust,
-                separation,
-                steady.duration,
-                tuple(run.failed),
-                number,
-                ways,
-            )
-            tell(
-                f"rehearsal {number}, {plan.schedule} schedule: {trial.verdict}"
-                + (f"; disturbed {robust} of {len(TRIALS)}" if trial.is_tied else "")
-            )
-            if best is None or found.rank > best.rank:
-                best = found
-            if robust == len(TRIALS) and separation >= 1:
-                return best
-        if separation < 1:
+            found = judge.fly(f"rehearsal {number}", plan, planner, steady, run)
+            if found.robust == len(TRIALS) and found.separation >= 1:
+                return replace(found, rehearsals=number, ways=ways)
+        if found.separation < 1:
             planner.spacing *= WIDEN
-    assert best is not None
-    return replace(best, rehearsals=len(ATTEMPTS[:attempts]), ways=ways)
+    assert judge.best is not None
+    return replace(judge.best, rehearsals=len(ATTEMPTS[:attempts]), ways=ways)

@@ -13,8 +13,8 @@ from knotopt.errors import RequirementError
 from knotopt.flight.formation import NODES
 from knotopt.flight.observed import Observer
 from knotopt.flight.plan import FlightPlan
-from knotopt.flight.planner import INTERVAL, FlightPlanner, SpanShape, kept, sample_times
-from knotopt.flight.route import HeightShape, SpanRoute
+from knotopt.flight.planner import INTERVAL, FlightPlanner, kept, sample_times
+from knotopt.flight.route import HeightShape, SpanRoute, SpanShape
 from knotopt.flight.router import Router, RouteShape
 from knotopt.flight.word import Letter
 from knotopt.sim.simulation import Checkpoint, Simulation

@@ -8,14 +8,14 @@ and the route is back there at each of its robots' own places.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import diags_array, eye_array
 from scipy.sparse.linalg import spsolve
 
-from knotopt.flight.router import Gate
+from knotopt.flight.router import Gate, RouteShape
 
 FloatArray = NDArray[np.float64]
 
@@ -37,6 +37,32 @@ class HeightShape:
 
     above: float = 0.6
     below: float = 1.2
+
+
+@dataclass(frozen=True)
+class SpanShape:
+    """How one span is flown: the way in plan, and the heights."""
+
+    route: RouteShape = field(default_factory=RouteShape)
+    heights: HeightShape = field(default_factory=HeightShape)
+
+    @property
+    def narrower(self) -> list[SpanShape]:
+        """This shape, and others that need less room."""
+        route, heights = self.route, self.heights
+        return [
+            SpanShape(
+                RouteShape(route.run * share, route.apart * share, route.clear * clear),
+                replace(heights, below=heights.below * depth),
+            )
+            for share, clear, depth in (
+                (1.0, 1.0, 1.0),
+                (1.0, 1.0, 0.5),
+                (0.75, 1.0, 1.0),
+                (0.5, 1.0, 1.0),
+                (0.5, 0.75, 0.5),
+            )
+        ]
 
 
 @dataclass(frozen=True)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, fields, replace
 
+from knotopt.checks import check_not_negative
 from knotopt.errors import RequirementError
 from knotopt.path.curve import Curve
 from knotopt.path.requirements import LARGEST, PathRequirements
@@ -50,10 +50,8 @@ class World:
     downwash: float = 0.3
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if not isinstance(value, int | float) or not math.isfinite(value) or value < 0:
-                raise RequirementError(f"{field.name} is a length in metres, not {value!r}")
+        names = [field.name for field in fields(self)]
+        check_not_negative(self, names, "a length in metres")
         if not self.step > 0:
             raise RequirementError(f"a grid step is a positive length in metres, not {self.step}")
         if not self.gap > 0:

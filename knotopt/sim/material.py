@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, fields
 
+from knotopt.checks import check_not_negative
 from knotopt.errors import RequirementError
 
 
@@ -58,9 +58,8 @@ class Material:
     force: float = 0.5
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if not isinstance(value, int | float) or not math.isfinite(value) or value < 0:
-                raise RequirementError(f"{field.name} is a positive number, not {value!r}")
-            if value == 0 and field.name not in ("bending", "friction"):
-                raise RequirementError(f"{field.name} is a positive number, not 0")
+        names = [field.name for field in fields(self)]
+        check_not_negative(self, names, "a positive number")
+        for name in names:
+            if getattr(self, name) == 0 and name not in ("bending", "friction"):
+                raise RequirementError(f"{name} is a positive number, not 0")
