@@ -6,6 +6,8 @@ Edges and labels are numbered along the path from p_1.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from knotopt.cable.cable import Cable
 
 
@@ -40,15 +42,32 @@ def pd_code(cable: Cable) -> tuple[tuple[int, int, int, int], ...]:
     >>> pd_code(Cable(torus_knot(2, 3), "L+"))
     ((4, 2, 5, 1), (2, 6, 3, 5), (6, 4, 1, 3))
     """
-    edges = 2 * len(cable.crossings)
-    places: list[list[int]] = [[0, 0] for _ in cable.crossings]  # [under, over] incoming edge
     _, index, over = cable.visits
-    for edge, (crossing, is_over) in enumerate(zip(index.tolist(), over.tolist(), strict=True), 1):
+    return pd_from_gauss(index.tolist(), over.tolist(), cable.crossings.sign.tolist())
+
+
+def pd_from_gauss(
+    visits: Sequence[int], over: Sequence[bool], signs: Sequence[int]
+) -> tuple[tuple[int, int, int, int], ...]:
+    """Planar diagram code of a closed curve from its Gauss code.
+
+    Parameters
+    ----------
+    visits : sequence of int, length 2C
+        Index (from 0) of the crossing at each visit.
+    over : sequence of bool, length 2C
+        Whether the visit passes over.
+    signs : sequence of +1 or -1, length C
+        Sign of each crossing.
+    """
+    edges = len(visits)
+    places = [[0, 0] for _ in signs]  # [under, over] incoming edge
+    for edge, (crossing, is_over) in enumerate(zip(visits, over, strict=True), 1):
         places[crossing][is_over] = edge
     code = []
-    for (under, incoming), crossing in zip(places, cable.crossings, strict=True):
+    for (under, incoming), sign in zip(places, signs, strict=True):
         outgoing = incoming % edges + 1
-        right, left = (outgoing, incoming) if crossing.sign > 0 else (incoming, outgoing)
+        right, left = (outgoing, incoming) if sign > 0 else (incoming, outgoing)
         code.append((under, right, under % edges + 1, left))
     return tuple(code)
 
