@@ -31,6 +31,8 @@ from benchmarks import (  # noqa: F401 -- they register themselves
     physics_subsets,
     solvers,
     startup,
+    topology,
+    topology_extraction,
 )
 from benchmarks.registry import BENCHMARKS, Benchmark, Case
 from knotopt.files import resumable_lines

@@ -129,7 +129,7 @@ def robots_figure(rows: list[dict[str, Any]]) -> Figure:
 
 def main() -> None:
     """Write summary.md (LCF), the other pages and the figures beside the results."""
-    from benchmarks import plot_formulations, plot_paths, plot_physics
+    from benchmarks import plot_formulations, plot_paths, plot_physics, plot_topology
 
     _, startup = load("startup")
     header, catalogue = load("lcf_catalogue")
@@ -159,6 +159,7 @@ def main() -> None:
         "formulations.md": plot_formulations,
         "paths.md": plot_paths,
         "physics.md": plot_physics,
+        "topology.md": plot_topology,
     }
     for page, source in pages.items():
         parts, figures = source.write_parts()

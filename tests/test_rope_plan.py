@@ -294,3 +294,11 @@ def test_fourteen_crossings() -> None:
 def test_predecessors_of_the_trivial_state() -> None:
     assert list(predecessors(TRIVIAL)) == []
     assert [str(a) for a, _ in predecessors(RopeState.from_gauss("U1+ O1+"))] == [str(R1(0, 1, 1))]
+
+
+@pytest.mark.slow
+def test_a_plan_longer_than_python_recurses() -> None:
+    cable = Cable(torus_knot(2, 1001), "L+")
+    knot = RopeState.from_gauss(gauss_code(cable), cable.crossings.sign.tolist())
+    (plan,) = plan_graph(knot).plans(1)
+    assert len(plan.actions) == 1001 and plan.states[-1] == knot

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from knotopt.cli.output import print_facts, print_table
 
 if TYPE_CHECKING:
-    from knotopt.flight.examine import CrossingRow
+    from knotopt.flight.examine import Examination
     from knotopt.flight.result import FlightResult, Flown
 
 HEADS = ("planned", "result", "what happened")
@@ -25,7 +25,7 @@ def show_flight(result: FlightResult, title: str) -> None:
     print_facts(result.measures())
     if result.flown is None:
         print("\nthe leader's route over cable laid straight in plan:")
-        _show_crossings(result.examination.crossings)
+        _show_crossings(result.examination)
     else:
         _show_flight(result.flown)
         if result.disturbed:
@@ -44,11 +44,13 @@ def show_flight(result: FlightResult, title: str) -> None:
 def _show_flight(flown: Flown) -> None:
     print(f"\n{flown.name} flight: {flown.came_of}")
     if flown.examination is not None:
-        _show_crossings(flown.examination.crossings)
+        _show_crossings(flown.examination)
 
 
-def _show_crossings(rows: Iterable[CrossingRow]) -> None:
+def _show_crossings(examination: Examination) -> None:
+    rows = examination.crossings
     print_table(HEADS, ((row.planned or "nothing", row.result, row.happened) for row in rows))
+    print(f"states after each crossing: {examination.states.sentence}")
 
 
 def _flight_row(flight: Mapping[str, Any]) -> tuple[Any, ...]:

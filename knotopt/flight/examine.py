@@ -17,6 +17,8 @@ from knotopt.flight.plan import FlightPlan, FloatArray, PlannedCrossing
 from knotopt.flight.record import FlightRecord
 from knotopt.verify.flight import leader_events, nearest_approaches
 from knotopt.verify.flight_limits import LimitsReport, check_limits
+from knotopt.verify.flight_places import TOLERANCE, executed_states, planned_states
+from knotopt.verify.flight_states import StateComparison, compare_states
 from knotopt.verify.flight_word import WordRow, compare_words, plan_word
 from knotopt.verify.span import check_span
 
@@ -57,6 +59,8 @@ class Examination:
     limits : LimitsReport
     crossings : tuple of CrossingRow
         In order, crossings that undo each other left out.
+    states : StateComparison
+        Of the cable, after each crossing.
     lost : tuple of str
         Of a plan: regions that the taut cable does not keep, so that it need not be the knot even
         if every crossing is as planned; and why.
@@ -64,6 +68,7 @@ class Examination:
 
     limits: LimitsReport
     crossings: tuple[CrossingRow, ...]
+    states: StateComparison
     lost: tuple[str, ...] = ()
 
     @property
@@ -93,7 +98,11 @@ def examine_plan(plan: FlightPlan) -> Examination:
     cable = plan.cable
     taut = check_span(cable.path, cable.diagram.size, plan.supports, LEAST_OPEN)
     lost = tuple(f"{closure.region}: {closure.reason}" for closure in taut.closures)
-    return Examination(report, _rows(compare_words(plan.crossings, found)), lost)
+    words = compare_words(plan.crossings, found)
+    tolerance = TOLERANCE * plan.world.step
+    model = (plan.anchors, plan.lengths, tolerance)
+    states = planned_states(plan.crossings, *model), planned_states(found, *model)
+    return Examination(report, _rows(words), compare_states(*states, words), lost)
 
 
 def examine_flight(plan: FlightPlan, record: FlightRecord) -> Examination:
@@ -109,7 +118,12 @@ def examine_flight(plan: FlightPlan, record: FlightRecord) -> Examination:
     events = leader_events(record.times, *seen, clock=record.clock)
     wanted = [(crossing.span, crossing.older) for crossing in plan.crossings]
     near = nearest_approaches(*seen, record.clock, wanted)
-    return Examination(report, _rows(compare_words(plan.crossings, events, near)))
+    words = compare_words(plan.crossings, events, near)
+    tolerance = TOLERANCE * plan.world.step
+    planned = planned_states(plan.crossings, plan.anchors, plan.lengths, tolerance)
+    flown = (record.times, record.cable, record.held, tolerance)
+    executed = executed_states(events, *flown, plan.crossings)
+    return Examination(report, _rows(words), compare_states(planned, executed, words))
 
 
 def _limits(

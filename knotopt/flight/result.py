@@ -13,6 +13,7 @@ from knotopt.flight.plan import FlightPlan
 from knotopt.flight.record import FlightRecord
 from knotopt.supports.support_set import place
 from knotopt.verify.flight_limits import LimitsReport, Worst
+from knotopt.verify.flight_states import StateComparison, format_states
 
 if TYPE_CHECKING:
     from knotopt.flight.rehearsal import Rehearsal
@@ -60,9 +61,12 @@ class Flown:
         if self.examination is None:
             return self.came_of
         amiss = self.examination.amiss
-        if not amiss:
-            return f"{self.came_of}; every crossing is as planned, which is not enough"
-        return f"{self.came_of}; {amiss[0].sentence}"
+        if amiss:
+            return f"{self.came_of}; {amiss[0].sentence}"
+        difference = self.examination.states.difference
+        return f"{self.came_of}; " + (
+            difference or "every crossing is as planned, which is not enough"
+        )
 
 
 def examined(name: str, plan: FlightPlan, record: FlightRecord, verdict: Verdict) -> Flown:
@@ -213,6 +217,7 @@ class FlightResult:
             "taut_loses": list(self.examination.lost),
             "limits": limits_content(self.examination.limits),
             "crossings": [asdict(row) for row in self.examination.crossings],
+            "states": states_content(self.examination.states),
             "polynomials": _fit_content(self.fit),
             "rehearsal": None
             if self.rehearsal is None
@@ -257,7 +262,22 @@ def flown_content(flown: Flown) -> dict[str, Any]:
         "largest_tension": _number(record.largest_tension),
         "seconds": round(record.seconds, 3),
         "crossings": [asdict(row) for row in examination.crossings] if examination else [],
+        "states": states_content(examination.states) if examination else None,
         "limits": limits_content(examination.limits) if examination else None,
+    }
+
+
+def states_content(comparison: StateComparison) -> dict[str, Any]:
+    """The cable's states after each crossing, for JSON."""
+    planned, executed = (
+        [format_states(states) for states in sequence.steps]
+        for sequence in (comparison.planned, comparison.executed)
+    )
+    return {
+        "planned": planned,
+        "executed": executed,
+        "results": list(comparison.results),
+        "difference": comparison.difference,
     }
 
 

@@ -123,13 +123,19 @@ class PlanGraph:
 
         Actions are ordered by kind - R1, C, R2 - and then by the numbers of their labels.
         """
-        return islice(self._from((), (self.start,)), limit) if self.steps else iter(())
+        return islice(self._walk(), limit) if self.steps else iter(())
 
-    def _from(self, actions: tuple[Action, ...], states: tuple[RopeState, ...]) -> Iterator[Plan]:
-        if states[-1] in self.goals:
-            yield Plan(actions, states)
-        for action, after in self.steps[states[-1]]:
-            yield from self._from((*actions, action), (*states, after))
+    def _walk(self) -> Iterator[Plan]:
+        """Depth first, with a stack of its own: plans may be longer than Python's."""
+        ways: list[tuple[tuple[Action, ...], tuple[RopeState, ...]]] = [((), (self.start,))]
+        while ways:
+            actions, states = ways.pop()
+            if states[-1] in self.goals:
+                yield Plan(actions, states)
+            ways += [
+                ((*actions, action), (*states, after))
+                for action, after in reversed(self.steps[states[-1]])
+            ]
 
     def to_networkx(self) -> nx.MultiDiGraph:
         """States as nodes with attributes `depth` and `goal` (bool), edges with `action`.

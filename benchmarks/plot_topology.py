@@ -1,0 +1,152 @@
+"""The page `topology.md`, from the results of the benchmarks of a rope's states."""
+
+from __future__ import annotations
+
+from statistics import median
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from benchmarks import plot
+from knotopt.plot.figures import PANEL
+
+Rows = list[dict[str, Any]]
+KINDS = ((False, "all", "s", "#666666"), (True, "up to symmetry", "o", "#0072B2"))
+
+
+def growth_table(rows: Rows) -> str:
+    """One line a number of crossings."""
+    lines = [
+        "| crossings | states | time [s] | runs | up to mirror image and reverse | time [s] "
+        "| runs |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for crossings in sorted({row["crossings"] for row in rows}):
+        cells = []
+        for canonical in (False, True):
+            (row,) = (r for r in rows if (r["crossings"], r["canonical"]) == (crossings, canonical))
+            seconds = f"{row['seconds']:.2g}" if row["runs"] else "-"
+            cells += [f"{row['states']:,}", seconds, str(row["runs"] or "-")]
+        lines.append(f"| {crossings} | {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def planning_table(rows: Rows) -> str:
+    """One line a goal."""
+    lines = [
+        "| goal | crossings | plans | states | actions | backward [ms] | median [ms] | runs "
+        "| forward [s] | runs | states met | forward / backward |",
+        "|---|---|---|---|---|---|---|---|---|---|---|---|",
+    ]
+    for row in rows:
+        forward = " | | |"
+        if "ratio" in row:
+            forward = (
+                f"{row['forward_seconds']:.2g} | {row['forward_runs']} "
+                f"| {row['forward_states']:,} | {row['ratio']:,.0f}"
+            )
+        lines.append(
+            f"| {row['goal']} | {row['crossings']} | {row['plans']:,} | {row['states']} "
+            f"| {row['actions']} | {1e3 * row['seconds']:.2f} | {1e3 * row['seconds_median']:.2f} "
+            f"| {row['runs']} | {forward} |"
+        )
+    return "\n".join(lines)
+
+
+def extraction_table(rows: Rows) -> str:
+    """One line a kind of curve and number of points."""
+    lines = [
+        "| curve | points | curves | crossings, median | ambiguous | fastest [ms] | median [ms] "
+        "| runs a curve |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
+    for curve, points in dict.fromkeys((row["curve"], row["points"]) for row in rows):
+        some = [row for row in rows if (row["curve"], row["points"]) == (curve, points)]
+        counts = [row["crossings"] for row in some if row["crossings"] is not None]
+        lines.append(
+            f"| {curve} | {points} | {len(some)} | {median(counts) if counts else '-'} "
+            f"| {len(some) - len(counts)} | {1e3 * median(row['seconds'] for row in some):.2f} "
+            f"| {1e3 * median(row['seconds_median'] for row in some):.2f} "
+            f"| {some[0]['repeats']} |"
+        )
+    return "\n".join(lines)
+
+
+def topology_figure(growth: Rows, planning: Rows) -> Figure:
+    """Number of states, and times of generating them, planning and searching, by crossings."""
+    figure = Figure(figsize=(2 * PANEL, PANEL), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    for canonical, label, marker, colour in KINDS:
+        some = [row for row in growth if row["canonical"] == canonical]
+        style = {"marker": marker, "color": colour, "markersize": 4}
+        left.plot(
+            [row["crossings"] for row in some],
+            [row["states"] for row in some],
+            label=label,
+            **style,
+        )
+        timed = [row for row in some if row["runs"]]
+        right.plot(
+            [row["crossings"] for row in timed],
+            [row["seconds"] for row in timed],
+            label=f"generating, {label}",
+            **style,
+        )
+    for label, key, marker, colour in (
+        ("searching forward", "forward_seconds", "^", "#D55E00"),
+        ("planning backward", "seconds", "D", "#009E73"),
+    ):
+        some = [row for row in planning if key in row]
+        right.plot(
+            [row["crossings"] for row in some],
+            [row[key] for row in some],
+            linestyle="",
+            marker=marker,
+            color=colour,
+            markersize=4,
+            label=label,
+        )
+    left.set_ylabel("states", fontsize=8)
+    right.set_ylabel("time [s]", fontsize=8)
+    for axes in (left, right):
+        _finish(axes)
+    return figure
+
+
+def write_parts() -> tuple[list[str], dict[str, Figure]]:
+    """The parts of the page."""
+    header, growth = plot.load("topology_growth")
+    _, planning = plot.load("topology_planning")
+    _, extraction = plot.load("topology_extraction")
+    machine = ", ".join(f"{key} {value}" for key, value in header["machine"].items())
+    parts = [
+        "# States of a rope",
+        f"One machine, one core: {machine}.",
+        "## How many there are",
+        growth_table(growth),
+        "Times are for making all states from those with one crossing fewer, by R1 and C; the "
+        "fastest of the runs.",
+        "![states and times by number of crossings](topology.png)",
+        "## Planning backward and searching forward",
+        planning_table(planning),
+        "Goals are knots' cables on their best cuts, whose grid diagrams may have more crossings "
+        "than the knots, or diagrams with the least crossings where the number is given and for "
+        "K14n100. Backward: all plans, as a graph. Forward: breadth first from the trivial state "
+        "by the actions that do not make more crossings than the goal has, until the goal is met; "
+        "only to five crossings. Both times are the fastest "
+        "of their runs, in one process; R2 by the paper's rule.",
+        "## Reading the state off a polyline",
+        extraction_table(extraction),
+        "Medians over the curves of the fastest and of the median run of each.",
+    ]
+    return parts, {"topology.png": topology_figure(growth, planning)}
+
+
+def _finish(axes: Axes) -> None:
+    axes.set_yscale("log")
+    axes.set_xlabel("crossings", fontsize=8)
+    axes.tick_params(labelsize=7)
+    axes.xaxis.get_major_locator().set_params(integer=True)
+    axes.legend(fontsize=7, frameon=False)
+    axes.grid(alpha=0.3)
