@@ -1,4 +1,4 @@
-"""Every subset of supports of a small knot: what the models say of it, and what physics does.
+"""Subsets of supports of small knots: what the models say of it, and what physics does.
 
 Flights are on modelled routes, one undisturbed flight a subset.
 """
@@ -21,14 +21,15 @@ from knotopt.verify.span import check_span
 OPENNESS = Fraction(1, 4)  # by which the models judge a subset [grid steps]
 
 
-GRIDS = {"3_1": ("3", "L+"), "4_1": ("4", "L+")}  # row of Table I, cut
+GRIDS = {"3_1": ("3", "L+", 8), "4_1": ("4", "L+", 4)}
+"""Row of Table I, cut, most supports: all of 3_1's; 4_1 has 10 turning points."""
 
 
 def subset_cases(smoke: bool) -> Iterable[Case]:
-    """Every subset of the turning points of 3_1's and 4_1's grids."""
-    for knot, (row, cut) in GRIDS.items():
+    """Every subset of 3_1's turning points, and those of at most 4 of 4_1's."""
+    for knot, (row, cut, most) in GRIDS.items():
         turning = range(2, len(Cable(find_knot(row).diagram, cut).path))
-        for size in range(len(turning) + 1):
+        for size in range(most + 1):
             for supports in combinations(turning, size):
                 yield {"knot": knot, "row": row, "cut": cut, "supports": list(supports)}
                 if smoke:
@@ -55,7 +56,7 @@ def measure_subset(case: Case) -> Result:
 register(
     Benchmark(
         "physics_subsets",
-        "every subset of supports of 3_1 and 4_1, flown on modelled routes",
+        "subsets of supports of 3_1 and 4_1, flown on modelled routes",
         subset_cases,
         measure_subset,
     )

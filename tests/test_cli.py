@@ -23,7 +23,7 @@ HEAVY = ("numpy", "scipy", "networkx", "matplotlib", "cvxpy", "ortools", "casadi
 def test_help_names_every_command_and_each_has_an_example(cli: Cli) -> None:
     status, out, _ = cli("--help")
     assert status == 0
-    commands = "knots show lcf solve path fly compare prove check table1 doctor"
+    commands = "knots show lcf solve path fly topology compare prove check table1 doctor"
     for command in commands.split():
         assert command in out
         status, text, _ = cli(command, "--help")
@@ -284,7 +284,8 @@ def test_doctor(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
     found = cli.json("doctor")
     assert [solver["works"] for solver in found["solvers"]] == [True] * 5
     assert found["versions"]["numpy"][0].isdigit()
-    assert set(found["extras"]) == {"viz", "knotinfo", "scip", "sat", "sim"}
+    extras = {"viz", "knotinfo", "scip", "sat", "sim", "atlas", "cluster"}
+    assert set(found["extras"]) == extras
     broken = [probe.ProbeResult("CP-SAT (ortools)", False, "wrong optimum 2")]
     asked: list[str] = []
     monkeypatch.setattr(probe, "probe_solvers", lambda names: asked.extend(names) or broken)

@@ -9,7 +9,20 @@ from typing import Annotated
 import typer
 
 from knotopt import __version__
-from knotopt.cli import compare, doctor, fly, knots, lcf, path, prove, show, solve, table1
+from knotopt.cli import (
+    atlas,
+    compare,
+    doctor,
+    fly,
+    knots,
+    lcf,
+    path,
+    prove,
+    show,
+    solve,
+    table1,
+    topology,
+)
 from knotopt.errors import KnotoptError
 
 
@@ -48,7 +61,9 @@ app.command("lcf")(lcf.lcf)
 app.command("solve")(solve.solve)
 app.command("path")(path.path)
 app.command("fly")(fly.fly)
+app.command("topology")(topology.topology)
 app.command("compare")(compare.compare)
+app.command("atlas")(atlas.atlas)
 app.command("prove")(prove.prove)
 app.command("check")(prove.check)
 app.command("table1")(table1.table1)

@@ -13,6 +13,8 @@ EXTRAS = {
     "scip": "pyscipopt",
     "sat": "python-sat",
     "sim": "mujoco",
+    "atlas": "pyarrow",
+    "cluster": "distributed",
 }
 PACKAGES = (
     "knotopt",

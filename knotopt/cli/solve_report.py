@@ -35,7 +35,7 @@ def supports_json(name: str, result: MinimalSupports) -> dict[str, Any]:
         "checked_open": result.report.is_open if result.found else None,
         "lcf_robots": result.lcf.robots,
         "lcf_open": result.lcf_report.is_open,
-        "lcf_closes": [result.lcf.regions[k].name for k in result.lcf_report.closed_regions],
+        "lcf_closes": [result.lcf.regions.name(k) for k in result.lcf_report.closed_regions],
         "solver": solution.solver,
         "start_accepted": solution.start_accepted,
         "build_seconds": round(solution.build_seconds, 6),
@@ -89,7 +89,7 @@ def show_search(
         f"({result.reduction_percent} % fewer)"
     )
     print(f"supports: {format_supports(result.placed_supports) or 'none'}\n")
-    closed = ", ".join(result.lcf.regions[k].name for k in result.lcf_report.closed_regions)
+    closed = ", ".join(result.lcf.regions.name(k) for k in result.lcf_report.closed_regions)
     milliseconds = 1e3 * (solution.build_seconds + solution.solve_seconds)
     start = {True: "accepted", False: "not accepted", None: "none given or taken"}
     clearance = "no region is threaded"

@@ -111,8 +111,8 @@ def compile_opening(
 
     def origin(index: int) -> str:
         number = int(kept[index])
-        region = regions[int(stretches.region[number])]
-        return f"{region.name}, threaded at p{int(cause[number]) + 1}"
+        region = regions.name(int(stretches.region[number]))
+        return f"{region}, threaded at p{int(cause[number]) + 1}"
 
     return OpeningProgram(
         name=f"opening, {mode}, cut {cable.cut}",
@@ -133,7 +133,7 @@ def _area(regions: Regions, active: IntArray) -> list[tuple[tuple[int, ...], int
         points = tuple((np.flatnonzero(mask) + 1).tolist())
         pocket = bool(regions.boundaries.is_pocket[index])
         rows.setdefault((points, 1 if pocket else 2), index)
-    return [(points, count, regions[index].name) for (points, count), index in rows.items()]
+    return [(points, count, regions.name(index)) for (points, count), index in rows.items()]
 
 
 def _stretches(regions: Regions, active: IntArray) -> _Stretches:

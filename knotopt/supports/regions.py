@@ -54,7 +54,7 @@ class Region:
     @property
     def name(self) -> str:
         """Kind and crossings (counted from 1), such as `loop c2` or `pocket c1 c3`."""
-        return " ".join([str(self.kind), *(f"c{index + 1}" for index in self.apexes)])
+        return _name(self.kind, self.apexes)
 
     @property
     def is_active(self) -> bool:
@@ -137,14 +137,14 @@ class Regions:
 
     def __getitem__(self, index: int) -> Region:
         boundaries = self.boundaries
-        pocket = bool(boundaries.is_pocket[index])
+        kind, apexes = self._kind(index)
         on = np.flatnonzero(self.on_boundary(np.array([index])))
         walked = boundaries.position(np.full(len(on), index), self.cable.times[on])
         threaded_by = int(self.threaded_by[index])
-        intervals = [boundaries.a[index], boundaries.b[index]] if pocket else [boundaries.a[index]]
+        intervals = [boundaries.a[index], boundaries.b[index]][: len(apexes)]
         return Region(
-            kind=RegionKind.POCKET if pocket else RegionKind.LOOP,
-            apexes=tuple(boundaries.apexes[index, : 1 + pocket].tolist()),
+            kind=kind,
+            apexes=apexes,
             intervals=tuple((int(low), int(high)) for low, high in intervals),
             boundary=tuple((on[np.argsort(walked)] + 1).tolist()),
             interior=unpack(self.packed_interiors[index], self.cable.diagram.size),
@@ -153,3 +153,16 @@ class Regions:
 
     def __iter__(self) -> Iterator[Region]:
         return (self[index] for index in range(len(self)))
+
+    def name(self, index: int) -> str:
+        """Name of a region, at less cost than that of the whole `Region`."""
+        return _name(*self._kind(index))
+
+    def _kind(self, index: int) -> tuple[RegionKind, tuple[int, ...]]:
+        pocket = bool(self.boundaries.is_pocket[index])
+        apexes = tuple(self.boundaries.apexes[index, : 1 + pocket].tolist())
+        return RegionKind.POCKET if pocket else RegionKind.LOOP, apexes
+
+
+def _name(kind: RegionKind, apexes: tuple[int, ...]) -> str:
+    return " ".join([str(kind), *(f"c{index + 1}" for index in apexes)])

@@ -132,13 +132,13 @@ def _loop(
     low, high = regions.boundaries.a[index].tolist()
     _forbid_covering(regions.cable, (low, high), forbidden)
     first, second = _leaving(regions.cable, low, high), _arriving(regions.cable, low, high)
-    yield _corner(regions.cable, first, second, threads, high, regions[index].name)
+    yield _corner(regions.cable, first, second, threads, high, regions.name(index))
 
 
 def _pocket(
     regions: Regions, index: int, threads: list[_Thread], forbidden: FloatArray
 ) -> Iterator[Conflict]:
-    cable, name = regions.cable, regions[index].name
+    cable, name = regions.cable, regions.name(index)
     a, b = regions.boundaries.a[index].tolist(), regions.boundaries.b[index].tolist()
     # The two corners, as pairs (visit on A, visit on B).
     forward = bool(regions.boundaries.b_forward[index])

@@ -84,6 +84,6 @@ def _reach(regions: Regions, requirements: Requirements) -> list[ReachTarget]:
                 options.append((k + 1, *range(-(crossed + 1), -k - 1, -1)))
             if k < q:
                 options.append((k + 1, *range(-(k + 2), -q - 1, -1)))
-        name = f"{regions[region].name}, threaded at p{q + 1}"
+        name = f"{regions.name(region)}, threaded at p{q + 1}"
         targets[entry, q] = ReachTarget(tuple(dict.fromkeys(options)), name)
     return list(targets.values())

@@ -1,0 +1,278 @@
+"""A run's folder: begun as a whole, filled by parts, each whole or not there, and merged.
+
+A part holds whole knots, with the columns of the atlas, of the times, and the paths as a list. Its
+metadata is the manifest and its pages have checksums, so that nothing foreign or damaged is merged.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import shutil
+import types
+import typing
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import asdict, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from knotopt.atlas.item import KnotResult
+from knotopt.atlas.schema import (
+    ATLAS,
+    KNOTS,
+    MANIFEST,
+    PARTS,
+    PATHS,
+    TIMES,
+    AtlasRow,
+    KnotRow,
+    Manifest,
+    PathRow,
+    TimesRow,
+    meaning,
+)
+from knotopt.cable.cut import OUTER_CUTS
+from knotopt.errors import MissingExtraError, OutputError
+from knotopt.files import write_atomically, write_folder
+
+try:
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+except ImportError as error:
+    raise MissingExtraError("pyarrow", "atlas", "an atlas") from error
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+_METADATA = b"knotopt"
+_KEYS = ("number", "knot", "cut")  # of a row of times, which the atlas has too
+_KINDS = {
+    int: pa.int32(),
+    str: pa.string(),
+    bool: pa.bool_(),
+    float: pa.float64(),
+    tuple[int, ...]: pa.list_(pa.int16()),
+}
+
+
+class Run:
+    """The folder of one run while it is filled.
+
+    Attributes
+    ----------
+    folder : Path
+    manifest : Manifest
+    done : set of int
+        Numbers of the knots that are in a part.
+    is_complete : bool
+        Whether the parts were merged.
+    """
+
+    def __init__(self, folder: Path, manifest: Manifest) -> None:
+        self.folder, self.manifest = folder, manifest
+        self.is_complete = (folder / ATLAS).exists()
+        self.done: set[int] = set()
+        self._parts = sorted((folder / PARTS).glob("part-*.parquet"))
+        for part in () if self.is_complete else self._parts:
+            numbers = self._numbers(part)
+            if twice := self.done & numbers:
+                raise OutputError(
+                    f"{part} has knot {min(twice)} of the list, which an earlier part has too: "
+                    "remove one of them"
+                )
+            self.done |= numbers
+
+    def add(self, results: Iterable[KnotResult]) -> None:
+        """Write the rows of whole knots as one part; they survive whatever happens next.
+
+        Raises
+        ------
+        OutputError
+            It cannot be written; the parts before it stay.
+        """
+        rows: list[dict[str, Any]] = []
+        for result in results:
+            for row, times in zip(result.rows, result.times, strict=True):
+                paths = [asdict(path) for path in result.paths if path.cut == row.cut]
+                rows.append({**asdict(row), **asdict(times), "paths": paths})
+        if not rows:
+            return
+        last = int(self._parts[-1].stem.removeprefix("part-")) if self._parts else 0
+        path = self.folder / PARTS / f"part-{last + 1:08d}.parquet"
+        write_atomically(path, _to_bytes(pa.Table.from_pylist(rows, _part_schema(self.manifest))))
+        self._parts.append(path)
+        self.done |= {row["number"] for row in rows}
+
+    def finish(self) -> None:
+        """Merge the parts into the final files, then remove them and what a kill left.
+
+        Raises
+        ------
+        OutputError
+            A file cannot be written, or a part is damaged; the parts stay.
+        """
+        if not self.is_complete:
+            table = pa.concat_tables([self._read(part) for part in self._parts])
+            table = table.combine_chunks().sort_by("number")  # stable: cuts are in order
+            if self.manifest.settings.paths:
+                paths = table["paths"].combine_chunks().flatten()
+                drawn = pa.Table.from_batches([pa.RecordBatch.from_struct_array(paths)])
+                self._write(PATHS, drawn, PathRow)
+            self._write(TIMES, table, TimesRow)
+            self._write(ATLAS, table, AtlasRow)  # last: it says that the run is complete
+            self.is_complete = True
+        shutil.rmtree(self.folder / PARTS, ignore_errors=True)
+        for torn in self.folder.glob(".*.tmp"):
+            torn.unlink()
+        self._parts = []
+
+    def _write(self, name: str, table: pa.Table, rows: type[DataclassInstance]) -> None:
+        schema = arrow_schema(rows, self.manifest)
+        write_atomically(self.folder / name, _to_bytes(table.select(schema.names).cast(schema)))
+
+    def _read(self, part: Path) -> pa.Table:
+        table = _read_table(part, "its knots are then measured again")
+        _check_origin(part, table, self.manifest)
+        return table
+
+    def _numbers(self, part: Path) -> set[int]:
+        numbers, rows = np.unique(self._read(part)["number"].to_numpy(), return_counts=True)
+        if numbers.min() < 1 or numbers.max() > self.manifest.knots or set(rows) != {8}:
+            raise OutputError(f"{part} is damaged (not {len(OUTER_CUTS)} rows a knot): remove it")
+        return set(numbers.tolist())
+
+
+@contextmanager
+def opened(folder: Path, manifest: Manifest, knots: Iterable[KnotRow]) -> Iterator[Run]:
+    """The folder of a run, made if it is not there, for this process alone.
+
+    Raises
+    ------
+    OutputError
+        Something else is there, or the run of another list, version or settings, or a damaged
+        part; or another process fills it. What is there stays as it was.
+    """
+    if not folder.exists() or (folder.is_dir() and not any(folder.iterdir())):
+        listed = pa.Table.from_pylist(
+            [asdict(knot) for knot in knots], arrow_schema(KnotRow, manifest)
+        )
+        write_folder(folder, {MANIFEST: manifest.text, KNOTS: _to_bytes(listed)})
+    _compare(folder, read_manifest(folder), manifest)
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)  # gone with the process
+        except OSError as error:
+            raise OutputError(f"another process is at work in {folder}") from error
+        yield Run(folder, manifest)
+    finally:
+        os.close(handle)
+
+
+def read_manifest(folder: Path) -> Manifest:
+    """What a run was asked.
+
+    Raises
+    ------
+    OutputError
+        The folder holds no run, or one of another format.
+    """
+    path = folder / MANIFEST
+    try:
+        return Manifest.from_text(path.read_text(encoding="utf-8"))
+    except FileNotFoundError as error:
+        raise OutputError(f"{folder} is not the folder of an atlas: no {MANIFEST}") from error
+    except NotADirectoryError as error:
+        raise OutputError(f"{folder} is a file, not the folder of an atlas") from error
+    except OSError as error:
+        raise OutputError(f"cannot read {path}: {error.strerror}") from error
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise OutputError(f"{path} is damaged, or of another version: {error}") from error
+
+
+def read_rows(folder: Path, name: str) -> pa.Table:
+    """The table of one of a run's files: KNOTS, ATLAS, TIMES or PATHS.
+
+    Raises
+    ------
+    OutputError
+        The run is not complete, or the file is damaged or of another run.
+    """
+    manifest = read_manifest(folder)
+    if not (folder / ATLAS).exists():
+        raise OutputError(f"{folder} is not complete: run `knotopt atlas` again to go on with it")
+    if not (folder / name).exists():
+        raise OutputError(f"{folder} has no {name}: the run was not asked for it")
+    table = _read_table(folder / name, "the run must then be done again")
+    _check_origin(folder / name, table, manifest)
+    return table
+
+
+def arrow_schema(rows: type[DataclassInstance], manifest: Manifest) -> pa.Schema:
+    """Columns of a row's class, their meanings as metadata, and the manifest."""
+    hints = typing.get_type_hints(rows)
+    columns = []
+    for column in fields(rows):
+        kind = hints[column.name]
+        nullable = isinstance(kind, types.UnionType)
+        if nullable:
+            kind = next(each for each in typing.get_args(kind) if each is not type(None))
+        metadata = {"meaning": meaning(column)}
+        columns.append(pa.field(column.name, _KINDS[kind], nullable, metadata))
+    return pa.schema(columns, {_METADATA: manifest.text.encode()})
+
+
+def _part_schema(manifest: Manifest) -> pa.Schema:
+    schema = arrow_schema(AtlasRow, manifest)
+    for column in arrow_schema(TimesRow, manifest):
+        if column.name not in _KEYS:
+            schema = schema.append(column)
+    paths = pa.struct(list(arrow_schema(PathRow, manifest)))
+    return schema.append(pa.field("paths", pa.list_(paths)))
+
+
+def _to_bytes(table: pa.Table) -> bytes:
+    sink = pa.BufferOutputStream()
+    pq.write_table(table, sink, compression="zstd", write_page_checksum=True)
+    written: bytes = sink.getvalue().to_pybytes()
+    return written
+
+
+def _read_table(path: Path, if_removed: str) -> pa.Table:
+    try:
+        return pq.read_table(path, page_checksum_verification=True)
+    except (pa.ArrowException, OSError, ValueError) as error:
+        words = str(error).splitlines()[0] if str(error) else "no Parquet"
+        raise OutputError(f"{path} is damaged ({words}): remove it; {if_removed}") from error
+
+
+def _check_origin(path: Path, table: pa.Table, manifest: Manifest) -> None:
+    if (table.schema.metadata or {}).get(_METADATA) != manifest.text.encode():
+        raise OutputError(f"{path} is of another run than {MANIFEST} of its folder: remove it")
+
+
+def _compare(folder: Path, begun: Manifest, now: Manifest) -> None:
+    """Raise if a folder's run is not the one asked for."""
+    otherwise = "name another folder"
+    for package, version in now.versions.items():
+        there = begun.versions.get(package, "none")
+        if there != version:
+            raise OutputError(
+                f"{folder} was begun with {package} {there}, here is {version}: "
+                f"finish it with that one, or {otherwise}"
+            )
+    for name, value in asdict(now.settings).items():
+        there = getattr(begun.settings, name)
+        if there != value:
+            raise OutputError(
+                f"{folder} was begun with {name} = {there}, not {value}: "
+                f"finish it with that, or {otherwise}"
+            )
+    if begun != now:
+        raise OutputError(
+            f"{folder} was begun with another list, of {begun.knots} knots: "
+            f"finish it with that one, or {otherwise}"
+        )

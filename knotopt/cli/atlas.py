@@ -1,0 +1,216 @@
+"""`knotopt atlas`: every method on every outer cut of many knots, as Parquet."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from knotopt.cli.output import OpennessOption, print_facts, print_written
+
+if TYPE_CHECKING:
+    from rich.progress import Task
+    from rich.text import Text
+
+    from knotopt.atlas.engine import Engine
+    from knotopt.atlas.run import Progress
+    from knotopt.atlas.schema import KnotRow
+
+
+def atlas(
+    run_dir: Annotated[
+        Path, typer.Argument(metavar="RUN_DIR", show_default=False, help="Folder of the results.")
+    ],
+    knots: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="KNOT...", show_default=False, help="Knots; by default those of --catalogue."
+        ),
+    ] = None,
+    catalogue: Annotated[
+        bool,
+        typer.Option("--catalogue", help="All 249 prime knots up to 10 crossings."),
+    ] = False,
+    knotinfo: Annotated[
+        bool,
+        typer.Option("--knotinfo", help="All 12,965 up to 13 crossings (the knotinfo extra)."),
+    ] = False,
+    grids: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="The grids in a folder's .json and .csv files."),
+    ] = None,
+    span: Annotated[
+        bool, typer.Option("--span", help="The smallest set of formulation span, too.")
+    ] = False,
+    paths: Annotated[
+        bool,
+        typer.Option("--paths", help="Cable paths of LCF's set and the smallest open one, too."),
+    ] = False,
+    r: OpennessOption = None,
+    seed: Annotated[int, typer.Option(min=0, max=2**31 - 1, help="Of the solver.")] = 0,
+    check: Annotated[
+        int,
+        typer.Option(
+            min=0,
+            metavar="N",
+            help="Examine the sets of one knot in N by the definitions; 1: of all, 0: of none.",
+        ),
+    ] = 16,
+    jobs: Annotated[
+        int | None,
+        typer.Option(min=1, help="Processes; by default one a core.", show_default=False),
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(metavar="ADDRESS", help="Of a Dask cluster, whose workers then do the work."),
+    ] = None,
+) -> None:
+    """Measure baseline, LCF, LCF layered and the smallest open sets on every outer cut.
+
+    A run that is interrupted, in whatever way, goes on when the same command is given again.
+    Example: knotopt atlas atlas249 --span
+    """
+    from knotopt.atlas.run import run_atlas
+    from knotopt.atlas.schema import Settings
+    from knotopt.supports.requirements import Requirements
+
+    listed = _list(knots, grids, catalogue=catalogue, knotinfo=knotinfo)
+    settings = Settings(str(Requirements(openness=r).openness), seed, span, paths, check)
+    engine = _engine(jobs, scheduler)
+    state: Progress | None = None
+    try:
+        with _bar() as show:
+
+            def progress(now: Progress) -> None:
+                nonlocal state
+                state = now
+                show(now)
+
+            run_atlas(run_dir, listed, settings, engine, progress)
+    except KeyboardInterrupt:
+        done = state.before + state.measured if state else 0
+        typer.echo(
+            f"knotopt: interrupted with {done} of {len(listed)} knots measured; "
+            "the same command goes on from there",
+            err=True,
+        )
+        raise typer.Exit(130) from None
+    _summarise(run_dir)
+
+
+def _list(
+    knots: list[str] | None, grids: Path | None, *, catalogue: bool, knotinfo: bool
+) -> tuple[KnotRow, ...]:
+    from knotopt.atlas.work import catalogue_rows, folder_rows, knot_rows
+    from knotopt.catalogue.lookup import find_knot
+
+    if sum(map(bool, (knots, grids, catalogue, knotinfo))) > 1:
+        raise typer.BadParameter(
+            "give one of: knots, --catalogue, --knotinfo, --grids", param_hint="KNOT..."
+        )
+    if knots:
+        return knot_rows(map(find_knot, knots))
+    return folder_rows(grids) if grids else catalogue_rows(knotinfo=knotinfo)
+
+
+def _engine(jobs: int | None, scheduler: str | None) -> Engine:
+    from knotopt.atlas.engine import Cluster, Local
+
+    if scheduler is not None:
+        if jobs is not None:
+            raise typer.BadParameter(
+                "a cluster has the workers it has: give --jobs or --scheduler",
+                param_hint="--jobs",
+            )
+        return Cluster(scheduler)
+    if jobs is None:
+        from joblib import cpu_count
+
+        jobs = cpu_count()
+    return Local(jobs)
+
+
+@contextmanager
+def _bar() -> Iterator[Callable[[Progress], None]]:
+    """A progress bar on the error stream, with rate and time left by the knots of this run."""
+    from rich import progress as bars
+    from rich.console import Console
+    from rich.text import Text
+
+    class Rate(bars.ProgressColumn):
+        def render(self, task: Task) -> Text:
+            return Text(f"{task.speed or 0:.1f} knots/s")
+
+    console = Console(stderr=True)
+    columns = (
+        bars.TextColumn("knots"),
+        bars.BarColumn(),
+        bars.MofNCompleteColumn(),
+        Rate(),
+        bars.TimeElapsedColumn(),
+        bars.TextColumn("left"),
+        bars.TimeRemainingColumn(),
+    )
+    with bars.Progress(
+        *columns,
+        console=console,
+        transient=True,
+        disable=not console.is_terminal,
+        speed_estimate_period=120,
+    ) as bar:
+        task = bar.add_task("knots", total=None)
+
+        def show(now: Progress) -> None:
+            if now.measured == 0:  # what earlier runs measured is no part of the rate
+                bar.update(task, total=now.knots, completed=now.before)
+                bar.reset(task, total=now.knots, completed=now.before)
+            else:
+                bar.update(task, advance=1)
+
+        yield show
+
+
+def _summarise(run_dir: Path) -> None:
+    """What the atlas says on average; an error if a checker contradicts it."""
+    import pyarrow.compute as pc
+
+    from knotopt.atlas.schema import ATLAS
+    from knotopt.atlas.store import read_rows
+    from knotopt.errors import SolverError
+
+    table = read_rows(run_dir, ATLAS)
+    rows = table.num_rows
+
+    def mean(column: str) -> str:
+        value = pc.mean(table[column]).as_py()
+        return "none" if value is None else f"{value:.2f}"
+
+    def share(column: str) -> str:
+        return f"{100 * pc.sum(table[column]).as_py() / rows:.1f} %"
+
+    proven = pc.sum(pc.equal(table["opening_status"], "optimal")).as_py()
+    checked = table["checked"].drop_null()
+    wrong = pc.sum(pc.invert(checked)).as_py() or 0
+    print_facts(
+        [
+            ("knots", len(pc.unique(table["number"]))),
+            ("rows, one a knot and cut", rows),
+            ("robots: baseline", mean("baseline")),
+            ("LCF", mean("lcf_robots")),
+            ("LCF layered", mean("layered_robots")),
+            ("smallest open", f"{mean('opening_robots')}, proven {proven} of {rows}"),
+            ("smallest open, over-under", mean("over_under_robots")),
+            ("smallest span", mean("span_robots")),
+            ("LCF open", share("lcf_open")),
+            ("LCF below every open set", share("lcf_below")),
+            ("checked by definition", f"{len(checked)} rows, {wrong} wrong"),
+        ]
+    )
+    print_written(run_dir / ATLAS)
+    if wrong:
+        raise SolverError(
+            f"{wrong} rows of {run_dir / ATLAS} contradict the definitions: column checked"
+        )
