@@ -23,12 +23,12 @@ HEAVY = ("numpy", "scipy", "networkx", "matplotlib", "cvxpy", "ortools", "casadi
 def test_help_names_every_command_and_each_has_an_example(cli: Cli) -> None:
     status, out, _ = cli("--help")
     assert status == 0
-    commands = "knots show lcf solve path fly topology compare prove check table1 doctor"
-    for command in commands.split():
+    printing = "knots show lcf solve path fly topology compare check table1 doctor".split()
+    for command in (*printing, "atlas", "report", "prove"):
         assert command in out
         status, text, _ = cli(command, "--help")
         assert status == 0 and f"knotopt {command}" in text
-        assert ("--json" in text) == (command != "prove")  # it writes a file
+        assert ("--json" in text) == (command in printing)  # the others write files
         assert "Example:" in text
 
 

@@ -18,6 +18,7 @@ from knotopt.cli import (
     lcf,
     path,
     prove,
+    report,
     show,
     solve,
     table1,
@@ -64,6 +65,7 @@ app.command("fly")(fly.fly)
 app.command("topology")(topology.topology)
 app.command("compare")(compare.compare)
 app.command("atlas")(atlas.atlas)
+app.command("report")(report.report)
 app.command("prove")(prove.prove)
 app.command("check")(prove.check)
 app.command("table1")(table1.table1)

@@ -6,13 +6,10 @@ dots sorted by depth are all there is to show, and a 3-D library would be most o
 
 from __future__ import annotations
 
-import base64
-import hashlib
 import json
 import re
 from collections.abc import Mapping, Sequence
 from html import escape
-from importlib import resources
 from typing import Any
 
 import numpy as np
@@ -22,6 +19,7 @@ from knotopt.flight.plan import FlightPlan
 from knotopt.flight.record import FlightRecord
 from knotopt.report.colours import ramp
 from knotopt.report.packing import frame_count, packed_motion, packed_text, resampled
+from knotopt.report.parts import digest, part
 from knotopt.supports.regions import Regions
 
 SCRIPTS = ("unpack", "catenary", "canvas", "flight", "scene", "above", "heights", "player")
@@ -62,11 +60,11 @@ def flight_page(
     RequirementError
         A plan or a record has positions that are not finite numbers.
     """
-    script = '(() => {\n"use strict";\n' + "\n".join(_part(f"{s}.js") for s in SCRIPTS) + "\n})();"
-    style = _part("page.css")
+    script = '(() => {\n"use strict";\n' + "\n".join(part(f"{s}.js") for s in SCRIPTS) + "\n})();"
+    style = part("page.css")
     parts = {
-        "policy": f"default-src 'none'; img-src data:; script-src '{_digest(script)}'; "
-        f"style-src '{_digest(style)}'",
+        "policy": f"default-src 'none'; img-src data:; script-src '{digest(script)}'; "
+        f"style-src '{digest(style)}'",
         "title": escape(f"Flight of {plan.name}"),
         "facts": _facts(plan),
         "notes": "".join(f"<li>{escape(note)}</li>" for note in plan.notes),
@@ -78,7 +76,7 @@ def flight_page(
         # No "<" is left that could end the element early.
         "data": json.dumps(_data(plan, records, downloads or {})).replace("<", "\\u003c"),
     }
-    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _part("page.html"))
+    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], part("page.html"))
 
 
 def _data(
@@ -217,12 +215,3 @@ def _section(name: str, title: str, content: str) -> str:
         f'<div class="wide" tabindex="0" role="region" aria-labelledby="{name}">{content}</div>'
         "</section>"
     )
-
-
-def _part(name: str) -> str:
-    return resources.files("knotopt.report").joinpath(name).read_text(encoding="utf-8").strip()
-
-
-def _digest(text: str) -> str:
-    """A source of a content security policy: this very text and no other."""
-    return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode("ascii")

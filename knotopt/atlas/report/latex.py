@@ -1,0 +1,108 @@
+"""A report as LaTeX: an article with packages that every distribution has."""
+
+from __future__ import annotations
+
+from knotopt.atlas.report.document import Block, Document, Picture, Table, pieces
+
+_HEAD = r"""\documentclass[a4paper,10pt]{article}
+\usepackage[utf8]{inputenc}
+\usepackage[margin=2cm]{geometry}
+\usepackage{array,booktabs,graphicx}
+"""
+_SPECIAL = str.maketrans(
+    {
+        "\\": r"\textbackslash{}",
+        "{": r"\{",
+        "}": r"\}",
+        "~": r"\textasciitilde{}",
+        "^": r"\textasciicircum{}",
+        '"': "''",
+        "<": r"\textless{}",
+        ">": r"\textgreater{}",
+        "|": r"\textbar{}",
+        "\N{EN DASH}": "--",
+        "\N{MINUS SIGN}": "$-$",
+        **{each: f"\\{each}" for each in "&%$#_"},
+    }
+)
+BREAK = "\\allowbreak{}"
+_WORDY = 14  # characters of a cell from which a column's lines are broken
+
+
+def latex(document: Document) -> str:
+    """The report's text; pictures are .pdf files beside it."""
+    parts = [
+        f"{_HEAD}\\title{{{_text(document.title)}}}\n\\author{{}}\n\\date{{}}",
+        "\\begin{document}\n\\maketitle",
+        "\\begin{itemize}",
+        *(f"\\item {_text(name)}: {_text(value)}" for name, value in document.facts),
+        "\\end{itemize}",
+    ]
+    for section in document.sections:
+        parts += [f"\n\\section{{{_text(section.title)}}}"]
+        for block in section.blocks:
+            parts += ["", *_block(block)]
+    return "\n".join([*parts, "\\end{document}", ""])
+
+
+def _block(block: Block) -> list[str]:
+    match block:
+        case str():
+            return [_text(block)]
+        case tuple():
+            items = (f"\\item {_text(item)}" for item in block)
+            return ["\\begin{itemize}", *items, "\\end{itemize}"]
+        case Picture():
+            return [
+                "\\begin{figure}[htbp]\\centering",
+                f"\\includegraphics[width={'' if block.is_wide else '0.55'}\\linewidth,"
+                f"height=0.85\\textheight,keepaspectratio]{{{block.name}.pdf}}",
+                f"\\caption{{{_text(block.caption)}}}",
+                "\\end{figure}",
+            ]
+        case Table():
+            return _table(block)
+
+
+def _table(block: Table) -> list[str]:
+    # Heads are longer than numbers: each word of them may stand on a line of its own.
+    heads = [_head(head) for head in block.heads]
+    kinds = "".join("r" if number else "l" for number in block.is_number)
+    return [
+        "\\begin{table}[htbp]\\centering\\footnotesize\\setlength{\\tabcolsep}{4pt}",
+        f"\\caption{{{_text(block.caption)}}}",
+        "\\resizebox{\\ifdim\\width>\\linewidth\\linewidth\\else\\width\\fi}{!}{%",
+        f"\\begin{{tabular}}{{{kinds}}}",
+        "\\toprule",
+        _row(heads),
+        "\\midrule",
+        *(_row([_text(cell) for cell in row]) for row in block.rows),
+        "\\bottomrule",
+        "\\end{tabular}}",
+        "\\end{table}",
+    ]
+
+
+def _head(head: str) -> str:
+    words = [_text(word) for word in head.split(" ")]
+    if len(head) < _WORDY:
+        return " ".join(words)
+    lines = " \\\\ ".join(words)
+    return f"\\begin{{tabular}}[b]{{@{{}}r@{{}}}}{lines}\\end{{tabular}}"
+
+
+def _row(cells: list[str]) -> str:
+    return " & ".join(cells) + " \\\\"
+
+
+def _text(text: str) -> str:
+    return "".join(
+        # A path may be broken where a line ends.
+        f"\\texttt{{{_escaped(piece).replace('/', '/' + BREAK)}}}" if is_code else _escaped(piece)
+        for is_code, piece in pieces(text)
+    )
+
+
+def _escaped(text: str) -> str:
+    # Names of the user's files may have letters that the fonts lack.
+    return text.translate(_SPECIAL).encode("ascii", "replace").decode("ascii")

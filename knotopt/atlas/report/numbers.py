@@ -1,0 +1,72 @@
+"""How numbers are written in a report."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from knotopt.atlas.report.document import NONE
+from knotopt.atlas.report.results import FloatArray
+
+
+def mean(values: ArrayLike, digits: int = 2) -> str:
+    """The mean; a dash of nothing.
+
+    Examples
+    --------
+    >>> mean([1, 2]), mean([])
+    ('1.50', '–')
+    """
+    known = _known(values)
+    return f"{known.mean():.{digits}f}" if known.size else NONE
+
+
+def median(values: ArrayLike, digits: int = 1) -> str:
+    """The median; a dash of nothing."""
+    known = _known(values)
+    return f"{np.median(known):.{digits}f}" if known.size else NONE
+
+
+def whole(value: float) -> str:
+    """A whole number with commas, or a dash.
+
+    Examples
+    --------
+    >>> whole(12965.0), whole(float("nan"))
+    ('12,965', '–')
+    """
+    return NONE if np.isnan(value) else f"{int(value):,}"
+
+
+def largest(values: ArrayLike) -> str:
+    """The largest whole number; a dash of nothing."""
+    known = _known(values)
+    return whole(known.max()) if known.size else NONE
+
+
+def percent(held: ArrayLike) -> str:
+    """How many in a hundred hold; a dash of nothing.
+
+    Examples
+    --------
+    >>> percent([True, False, False])
+    '33.3 %'
+    """
+    values = np.asarray(held, dtype=bool)
+    return f"{100 * values.mean():.1f} %" if values.size else NONE
+
+
+def signed(value: float) -> str:
+    """A coefficient to two decimals with its sign; a dash where it is undefined.
+
+    Examples
+    --------
+    >>> signed(-0.123), signed(0.5), signed(float("nan"))
+    ('−0.12', '+0.50', '–')
+    """
+    return NONE if np.isnan(value) else f"{value:+.2f}".replace("-", "\N{MINUS SIGN}")
+
+
+def _known(values: ArrayLike) -> FloatArray:
+    array: FloatArray = np.asarray(values, dtype=float).ravel()
+    return array[~np.isnan(array)]

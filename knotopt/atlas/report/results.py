@@ -1,0 +1,149 @@
+"""The results of a complete atlas, as arrays: one row a knot, one column a cut."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+from numpy.typing import NDArray
+
+from knotopt.atlas.schema import ATLAS, KNOTS, PATHS, TIMES, KnotRow, Manifest
+from knotopt.atlas.store import read_manifest, read_rows
+from knotopt.cable.cut import OUTER_CUTS
+from knotopt.errors import OutputError
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+Supports = tuple[int, ...]
+
+METHODS = {
+    "baseline": "baseline",
+    "lcf_robots": "LCF",
+    "layered_robots": "layered",
+    "opening_robots": "`opening`",
+    "over_under_robots": "over-under",
+    "span_robots": "`span`",
+}
+"""Columns of robots, and what they are called."""
+
+
+@dataclass(frozen=True)
+class Results:
+    """A complete run of an atlas, of K knots.
+
+    Attributes
+    ----------
+    manifest : Manifest
+    knots : tuple of KnotRow
+        In the order of the list.
+    rows, times : pyarrow.Table
+        Eight rows a knot, in the order of the outer cuts.
+    paths : pyarrow.Table or None
+    """
+
+    manifest: Manifest
+    knots: tuple[KnotRow, ...]
+    rows: pa.Table
+    times: pa.Table
+    paths: pa.Table | None
+
+    def cuts(self, column: str) -> FloatArray:
+        """Numbers of a column of the atlas, empty cells as nan, shape (K, 8)."""
+        return self._shaped(self.rows[column])
+
+    def holds(self, column: str) -> BoolArray:
+        """Where a column of the atlas is true, shape (K, 8)."""
+        held: BoolArray = self.cuts(column) == 1
+        return held
+
+    def seconds(self, column: str) -> FloatArray:
+        """Numbers of a column of the times, empty cells as nan, shape (K, 8)."""
+        return self._shaped(self.times[column])
+
+    def best(self, column: str) -> FloatArray:
+        """Fewest of a column over a knot's cuts, nan where a cell is empty, shape (K,)."""
+        fewest: FloatArray = self.cuts(column).min(axis=1)
+        return fewest
+
+    def supports(self, column: str, knot: int, cut: int) -> Supports:
+        """A set of supports, without the ends."""
+        return tuple(self.rows[column][len(OUTER_CUTS) * knot + cut].as_py())
+
+    @cached_property
+    def methods(self) -> dict[str, str]:
+        """Those of `METHODS` that have numbers for every knot and cut."""
+        return {
+            column: words
+            for column, words in METHODS.items()
+            if not np.isnan(self.cuts(column)).any()
+        }
+
+    @cached_property
+    def proven(self) -> BoolArray:
+        """Where the smallest set of `opening` is proven, shape (K, 8)."""
+        proven: BoolArray = self.cuts("opening_bound") == self.cuts("opening_robots")
+        return proven
+
+    @cached_property
+    def crossing_numbers(self) -> dict[int | None, NDArray[np.int64]]:
+        """Indices of the knots of each crossing number, in order; None where no table says it."""
+        numbers = [knot.crossing_number for knot in self.knots]
+        order = sorted({n for n in numbers if n is not None})
+        return {
+            each: np.flatnonzero([n == each for n in numbers])
+            for each in (*order, *([None] if None in numbers else []))
+        }
+
+    @property
+    def size(self) -> str:
+        """How many knots and cuts, in words."""
+        return f"{_count(len(self.knots), 'knot')}, {_count(self.rows.num_rows, 'cut')}"
+
+    def _shaped(self, column: pa.ChunkedArray) -> FloatArray:
+        values = column.cast(pa.float64()).to_numpy()
+        return np.asarray(values, dtype=float).reshape(len(self.knots), len(OUTER_CUTS))
+
+
+def read_results(folder: Path) -> Results:
+    """A run that is complete.
+
+    Raises
+    ------
+    OutputError
+        The folder holds no run, an unfinished one, or damaged files; or the solver found no set.
+    """
+    manifest = read_manifest(folder)
+    rows, times, listed = (read_rows(folder, name) for name in (ATLAS, TIMES, KNOTS))
+    paths = read_rows(folder, PATHS) if manifest.settings.paths else None
+    knots = tuple(KnotRow(**_hashable(row)) for row in listed.to_pylist())
+    numbers = np.repeat([knot.number for knot in knots], len(OUTER_CUTS))
+    cuts = list(OUTER_CUTS) * len(knots)
+    for name, table in ((ATLAS, rows), (TIMES, times)):
+        if table["cut"].to_pylist() != cuts or not np.array_equal(table["number"], numbers):
+            raise OutputError(
+                f"{folder / name} does not have the {len(OUTER_CUTS)} outer cuts of every knot of "
+                f"{KNOTS} in their order: the run must be done again"
+            )
+    if missing := rows["opening_robots"].null_count + rows["over_under_robots"].null_count:
+        raise OutputError(
+            f"{folder / ATLAS}: {missing} smallest open sets were not found; opening_status and "
+            "over_under_status say why"
+        )
+    return Results(manifest, knots, rows, times, paths)
+
+
+def _hashable(row: dict[str, Any]) -> dict[str, Any]:
+    known = {column.name for column in fields(KnotRow)}
+    return {
+        name: tuple(value) if isinstance(value, list) else value
+        for name, value in row.items()
+        if name in known
+    }
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number:,} {what}" + ("" if number == 1 else "s")

@@ -1,0 +1,111 @@
+"""Section: how long it took, and paths where they were asked for."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from knotopt.atlas.report.document import Section, Table, table
+from knotopt.atlas.report.numbers import median, percent
+from knotopt.atlas.report.results import Results
+
+STEPS = {
+    "lcf_seconds": "LCF and its layered set",
+    "opening_seconds": "`opening`, turning-point",
+    "over_under_seconds": "`opening`, over-under",
+    "span_seconds": "`span`",
+    "paths_seconds": "four paths and their checks",
+    "check_seconds": "checks by the definitions",
+}
+
+
+def times_section(results: Results) -> Section:
+    """Times a cut of every step, the largest memory, and where solvers are compared."""
+    memory = np.nanmax(results.seconds("worker_mib"))
+    return Section(
+        "Times",
+        (
+            times_table(results),
+            f"The largest worker process had {memory:,.0f} MiB.",
+            "The programs were solved by CP-SAT on one thread. How it compares with other solvers "
+            "(solved, proven, wrong, shifted geometric means, performance profile) is the matter "
+            "of the benchmark `solvers`: see `benchmarks/results/formulations.md` in knotopt's "
+            "repository.",
+        ),
+    )
+
+
+def times_table(results: Results) -> Table:
+    """Median, 90 % and largest of every step."""
+    rows = []
+    for column, words in STEPS.items():
+        seconds = results.seconds(column)
+        seconds = seconds[~np.isnan(seconds)]
+        if seconds.size:
+            rows.append(
+                [
+                    words,
+                    f"{seconds.size:,}",
+                    f"{1e3 * np.median(seconds):.1f}",
+                    f"{1e3 * np.quantile(seconds, 0.9):.1f}",
+                    f"{1e3 * seconds.max():.1f}",
+                    f"{seconds.sum():,.1f}",
+                ]
+            )
+    return table(
+        ("step", "cuts", "median ms", "90 % ms", "largest ms", "all together s"),
+        rows,
+        "Times a cut of compiling, building and solving, as measured in the run, whatever else the "
+        "machine did; 90 %: that much is not exceeded on 90 % of the cuts.",
+    )
+
+
+def paths_section(results: Results) -> Section | None:
+    """Medians of the paths' measures; None if the run has no paths."""
+    if results.paths is None:
+        return None
+    rows = []
+    groups = results.paths.to_pylist()
+    for supports in ("lcf", "opening"):
+        for method in ("relaxation", "nlp"):
+            paths = [p for p in groups if (p["supports"], p["method"]) == (supports, method)]
+            measures = ("stretch", "smallest_radius", "clearance", "opening", "gap")
+            rows.append(
+                [
+                    supports,
+                    method,
+                    f"{len(paths):,}",
+                    percent([path["status"] in ("solved", "converged") for path in paths]),
+                    percent([path["same_diagram"] for path in paths]),
+                    percent([path["same_knot"] for path in paths]),
+                    *(median(_column(paths, name), 3) for name in measures),
+                ]
+            )
+    return Section(
+        "Cable paths",
+        (
+            table(
+                (
+                    "supports",
+                    "method",
+                    "paths",
+                    "done",
+                    "same diagram",
+                    "same knot",
+                    "/ taut",
+                    "radius",
+                    "clearance",
+                    "opening",
+                    "gap",
+                ),
+                rows,
+                "Paths of the relaxation and of the program on LCF's set and on the smallest open "
+                "one: shares of paths, then medians [grid steps] where there is something to "
+                'measure. "/ taut" is the length over the taut string\'s; same knot: the same '
+                "Alexander polynomial.",
+            ),
+        ),
+    )
+
+
+def _column(paths: list[dict[str, float | None]], name: str) -> list[float]:
+    return [np.nan if path[name] is None else float(path[name] or 0) for path in paths]
