@@ -91,21 +91,29 @@ def write_parts() -> tuple[list[str], dict[str, Figure]]:
         "# Flights in physics",
         f"One machine, one core: {machine}.",
         "Grid step 0.5 m. Sets are flown on routes that up to three rehearsals made and that were "
-        "chosen by flights with other disturbances; `all` and `none` on modelled routes. Disturbed "
-        "flights have position errors of 1 cm (seeds 1 to 5). A flight counts as tied by its "
+        "chosen by flights with other disturbances; `all` on modelled routes where one of them ties "
+        "in all of those, `none` on the modelled route. Disturbed flights have position errors of 1 cm (seeds 1 to 5). A flight counts as tied by its "
         "Alexander polynomial, which does not tell mirror images apart, nor 5_1 from 10_132, nor "
         "7_4 from 9_2. Robots apart: 1 is the separation asked for.",
-        "## By method, rows 3, 4 and 5 of Table I",
+        "## By method, Table I",
         rates_table(rows),
         "## Set by set",
         flown_table(rows),
     ]
+    for name, title in (
+        ("physics_knots", "## KnotInfo's grids"),
+        ("physics_optimal", "## Other optimal sets"),
+    ):
+        if (plot.RESULTS / f"{name}.jsonl").exists():
+            _, more = plot.load(name)
+            parts += [title, rates_table(more), flown_table(more)]
     if (plot.RESULTS / "physics_subsets.jsonl").exists():
         _, subsets = plot.load("physics_subsets")
         parts += [
             "## Subsets of supports on modelled routes, against the models (r = 0.25)",
             confusion_table(subsets),
-            "One undisturbed flight each.",
+            "All subsets of 3_1's turning points and those of at most four of 4_1's; one "
+            "undisturbed flight each.",
         ]
     return parts, {}
 
