@@ -91,8 +91,9 @@ def write_parts() -> tuple[list[str], dict[str, Figure]]:
         "# Flights in physics",
         f"One machine, one core: {machine}.",
         "Grid step 0.5 m. Sets are flown on routes that up to three rehearsals made and that were "
-        "chosen by flights with other disturbances; `all` on modelled routes where one of them ties "
-        "in all of those, `none` on the modelled route. Disturbed flights have position errors of 1 cm (seeds 1 to 5). A flight counts as tied by its "
+        "chosen by flights with other disturbances; `all` on modelled routes where one of them "
+        "ties in all of those, `none` on the modelled route. Disturbed flights have position "
+        "errors of 1 cm (seeds 1 to 5). A flight counts as tied by its "
         "Alexander polynomial, which does not tell mirror images apart, nor 5_1 from 10_132, nor "
         "7_4 from 9_2. Robots apart: 1 is the separation asked for.",
         "## By method, Table I",

@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 from conftest import Cli
+from shown import commands, expect_shown
 
 
 def test_solve(cli: Cli, tmp_path: Path) -> None:
@@ -203,23 +204,13 @@ def test_prove_goes_on_where_it_stopped(
 
 
 def test_the_readme_shows_what_is_printed(cli: Cli) -> None:
-    """Each `$ knotopt ...` in README.md, between the dots; of paths and flights, no numbers."""
-    readme = (Path(__file__).parents[1] / "README.md").read_text()
-    blocks = re.findall(r"```console\n\$ knotopt ([^\n]*)\n(.*?)```", readme, re.DOTALL)
-    assert len(blocks) == 7
-    for command, shown in blocks:
+    shown = list(commands(Path(__file__).parents[1] / "README.md"))
+    assert len(shown) == 7
+    for command, expected in shown:
         cli.monkeypatch.chdir(Path("/"))
         arguments = re.sub(r" --(plot path.png|out trefoil)$", "", command)
         _, out, _ = cli(*shlex.split(arguments))
-        out = re.sub(r" +$", "", out, flags=re.MULTILINE)
-        pieces = shown.split("...\n")
-        if command.startswith(("path", "fly")):
-            texts = (re.sub(r"[\d.]*\d|[ ─]+", " ", text) for text in (out, *pieces))
-            out, *pieces = (re.sub(r" *\n *", "\n", text) for text in texts)
-        at = 0
-        for piece in pieces:
-            assert piece in out[at:], command
-            at = out.index(piece, at) + len(piece)
+        expect_shown(command, expected, out)
 
 
 def test_compare_goes_on_where_it_stopped(
