@@ -19,7 +19,7 @@ def commands(page: Path) -> Iterator[tuple[str, str]]:
 
 def expect_shown(command: str, shown: str, out: str) -> None:
     """What a page shows is in the output, between the dots; of paths and flights, no numbers."""
-    out = re.sub(r" +$", "", out, flags=re.MULTILINE)
+    out, shown = (re.sub(r" +$", "", text, flags=re.MULTILINE) for text in (out, shown))
     pieces = shown.split("...\n")
     if command.startswith(("path", "fly")):
         texts = (re.sub(r"[\d.]*\d|[ ─]+", " ", text) for text in (out, *pieces))
