@@ -34,6 +34,7 @@ from benchmarks import (  # noqa: F401 -- they register themselves
     topology,
     topology_extraction,
 )
+from benchmarks.compare import compare
 from benchmarks.registry import BENCHMARKS, Benchmark, Case
 from knotopt.files import resumable_lines
 
@@ -58,13 +59,45 @@ def run(
     ] = 1,
 ) -> None:
     """Run benchmarks and write their results as JSON lines."""
+    chosen = _named(names)
+    out.mkdir(parents=True, exist_ok=True)
+    for benchmark in chosen:
+        print(f"written: {run_benchmark(benchmark, out, smoke=smoke, jobs=jobs)}")
+
+
+@app.command("compare")
+def compare_revisions(
+    revision: Annotated[str, typer.Argument(help="To compare with, as git names it.")],
+    names: Annotated[list[str], typer.Argument(help="Benchmarks.")],
+    smoke: Annotated[bool, typer.Option("--smoke", help="A few small cases each.")] = False,
+    repeats: Annotated[int, typer.Option(min=1, help="Of each case; the fastest counts.")] = 3,
+) -> None:
+    """Measure this tree and another revision in turn: ratios of their costs, and what changed."""
+    chosen = _named(names)
+    try:
+        found = compare(revision, chosen, smoke=smoke, repeats=repeats)
+    except ValueError as error:
+        raise typer.BadParameter(str(error)) from error
+    print(f"| benchmark | cost | cases | this over {revision} | least | most |")
+    print("|---|---|---|---|---|---|")
+    for each in found.ratios:
+        print(
+            f"| {each.benchmark} | {each.cost} | {each.cases} "
+            f"| {each.mean:.3f} | {each.least:.3f} | {each.most:.3f} |"
+        )
+    for name in found.missing:
+        print(f"{name} is not among the benchmarks of {revision}")
+    for name, case in found.changed:
+        print(f"other results than at {revision}: {name}, {json.dumps(case)}")
+
+
+def _named(names: list[str] | None) -> list[Benchmark]:
+    """The benchmarks of these names, or all."""
     chosen = names or list(BENCHMARKS)
     unknown = [name for name in chosen if name not in BENCHMARKS]
     if unknown:
         raise typer.BadParameter(f"no benchmark is named {unknown[0]!r}: {', '.join(BENCHMARKS)}")
-    out.mkdir(parents=True, exist_ok=True)
-    for name in chosen:
-        print(f"written: {run_benchmark(BENCHMARKS[name], out, smoke=smoke, jobs=jobs)}")
+    return [BENCHMARKS[name] for name in chosen]
 
 
 def run_benchmark(benchmark: Benchmark, out: Path, *, smoke: bool = False, jobs: int = 1) -> Path:

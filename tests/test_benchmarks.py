@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from typer.testing import CliRunner
 
 from benchmarks import __main__ as harness
 from benchmarks import plot
+from benchmarks.compare import ROOT, compare, fastest
 from benchmarks.registry import BENCHMARKS, Benchmark, register
 from knotopt.errors import OutputError
 
@@ -90,3 +92,27 @@ def test_a_partial_run_of_another_kind_is_kept(tmp_path: Path) -> None:
     first, *rows = records(harness.run_benchmark(counting, tmp_path))
     assert first["benchmark"] == "counting" and "machine" in first
     assert [row["result"] for row in rows] == [{"k": 0}, {"k": 1}]
+
+
+def test_a_revision_is_compared_with_this_tree() -> None:
+    if not (ROOT / ".git").exists():
+        pytest.skip("not in a clone")
+    worktrees = ["git", "-C", str(ROOT), "worktree", "list"]
+    before = subprocess.run(worktrees, capture_output=True, check=True).stdout
+    chosen = [BENCHMARKS["startup"], BENCHMARKS["lcf_catalogue"]]
+    found = compare("HEAD", chosen, smoke=True, repeats=1)
+    assert (found.missing, found.changed) == ((), ())
+    costs = {(each.benchmark, each.cost): each for each in found.ratios}
+    assert set(costs) == {("startup", "seconds"), ("lcf_catalogue", "ms_per_cut")}
+    assert all(0.02 < each.least <= each.mean <= each.most < 50 for each in found.ratios)
+    assert subprocess.run(worktrees, capture_output=True, check=True).stdout == before
+    with pytest.raises(ValueError, match="no revision 'nothing'"):
+        compare("nothing", chosen, smoke=True)
+
+
+def test_what_costs_and_what_counts() -> None:
+    runs = (
+        {"robots": 5, "seconds": 2.0, "paths": [{"ms": 4.0}], "times_faster": 9},
+        {"robots": 5, "seconds": 1.0, "paths": [{"ms": 6.0}], "times_faster": 8},
+    )
+    assert fastest(runs) == ({"seconds": 1.0, "paths[0].ms": 4.0}, {"robots": 5})

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from networkx.utils import UnionFind
 
 from knotopt.cable.cable import BoolArray, Cable, IntArray, frozen
 from knotopt.supports.regions import Regions
@@ -200,17 +201,10 @@ def leader_faces(cable: Cable) -> LeaderFaces:
 
 def _joined(face: list[int], removed: Iterable[int]) -> list[int]:
     """The face on the left of each dart when some segments are taken away."""
-    parent = list(range(max(face) + 1))
-
-    def root(number: int) -> int:
-        while parent[number] != number:
-            parent[number] = parent[parent[number]]
-            number = parent[number]
-        return number
-
+    joined = UnionFind(face)
     for segment in removed:
-        parent[root(face[2 * segment])] = root(face[2 * segment + 1])
-    return [root(number) for number in face]
+        joined.union(face[2 * segment], face[2 * segment + 1])
+    return [joined[number] for number in face]
 
 
 def _outer_dart(cable: Cable) -> int:
