@@ -48,6 +48,11 @@ from .supports.requirements import Requirements as Requirements
 from .supports.search import best_diagram as best_diagram
 from .supports.search import best_supports as best_supports
 from .supports.search import supports_by_cut as supports_by_cut
+from .topology.extract import extract_state as extract_state
+from .topology.flown import cable_state as cable_state
+from .topology.flown import flown_plan as flown_plan
+from .topology.plan import plan_graph as plan_graph
+from .topology.state import RopeState as RopeState
 from .verify.certificate import check_certificate as check_certificate
 from .verify.opening import check_opening as check_opening
 from .verify.path import check_path as check_path
