@@ -49,9 +49,11 @@ MEASURING = (  # of curves, in floating point
     "crossings.py",
     "flight.py",
     "flight_limits.py",
+    "flight_places.py",
     "flight_word.py",
     "path.py",
 )
+OF_STATES = ("flight_places.py", "flight_states.py")  # of a rope, which no flight is made from
 
 
 def test_the_checkers_import_nothing_they_check() -> None:
@@ -67,7 +69,8 @@ def test_the_checkers_import_nothing_they_check() -> None:
                 inexact = package[0] in ("numpy", "scipy", "shapely")
                 assert not inexact or file.name in MEASURING, (file, name)
                 if package[0] == "knotopt":
-                    assert package[1] in ("verify", "errors"), (file, name)
+                    states = file.name in OF_STATES and package[1] == "topology"
+                    assert package[1] in ("verify", "errors") or states, (file, name)
 
 
 def test_a_certificate_is_accepted(certificate: str) -> None:

@@ -72,7 +72,8 @@ def _scratch(folder: Path, page: Path) -> dict[str, str]:
         else:
             assert not file.exists()
             file.write_text(text)
-    return {**os.environ, "PYTHONPATH": str(folder), "PYTHONIOENCODING": "utf-8"}
+    own = {"PYTHONPATH": str(folder), "PYTHONIOENCODING": "utf-8", "PYTEST_ADDOPTS": ""}
+    return {**os.environ, **own}
 
 
 @pytest.mark.slow
