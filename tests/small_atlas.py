@@ -1,0 +1,67 @@
+"""A small atlas at hand: its results, and runs of it that are whole or were interrupted."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from knotopt.atlas.item import KnotResult, measure_knot
+from knotopt.atlas.run import run_atlas
+from knotopt.atlas.schema import (
+    Settings,
+)
+from knotopt.atlas.work import knot_rows
+from knotopt.catalogue.lookup import find_knot
+
+LIST = knot_rows(map(find_knot, ("3_1", "4_1", "5_1", "5_2", "T(2,7)")))
+SETTINGS = Settings(check=1)
+
+
+@cache
+def measured() -> dict[int, KnotResult]:
+    """Results of each knot of the list, by its number."""
+    return {knot.number: measure_knot(knot, SETTINGS) for knot in LIST}
+
+
+class Replay:
+    """Gives results at hand, last first; fails before the one numbered `fails_at`."""
+
+    def __init__(
+        self,
+        results: dict[int, KnotResult],
+        fails_at: int = 0,
+        error: BaseException | None = None,
+    ) -> None:
+        self.results, self.fails_at, self.error = results, fails_at, error
+        self.asked: list[int] = []
+
+    def map(self, function: Callable[[Any], Any], items: Iterable[Any]) -> Iterator[Any]:
+        assert function is not None
+        for item in reversed(list(items)):
+            if item.number == self.fails_at and self.error is not None:
+                raise self.error
+            self.asked.append(item.number)
+            yield self.results[item.number]
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {
+        str(path.relative_to(folder)): path.read_bytes()
+        for path in folder.rglob("*")
+        if path.is_file()
+    }
+
+
+def whole_run(folder: Path) -> Path:
+    run_atlas(folder / "whole", LIST, SETTINGS, Replay(measured()))
+    return folder / "whole"
+
+
+def half_run(folder: Path) -> Path:
+    with pytest.raises(KeyboardInterrupt):
+        run_atlas(folder / "half", LIST, SETTINGS, Replay(measured(), 2, KeyboardInterrupt()))
+    return folder / "half"
