@@ -7,12 +7,16 @@ from __future__ import annotations
 
 import json
 import sys
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from hypothesis import settings
 
 from knotopt.cli import app
+
+if TYPE_CHECKING:
+    from knotopt.atlas.item import KnotResult
 
 settings.register_profile("fixed", derandomize=True, deadline=None)
 settings.register_profile("explore", deadline=None, max_examples=1000, print_blob=True)
@@ -43,3 +47,27 @@ class Cli:
 @pytest.fixture
 def cli(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Cli:
     return Cli(capsys, monkeypatch)
+
+
+@pytest.fixture
+def results() -> dict[int, KnotResult]:
+    """Of the knots of the small atlas, by number."""
+    from small_atlas import measured
+
+    return measured()
+
+
+@pytest.fixture
+def whole(tmp_path: Path) -> Path:
+    """The folder of a run of the small atlas."""
+    from small_atlas import whole_run
+
+    return whole_run(tmp_path)
+
+
+@pytest.fixture
+def half(tmp_path: Path) -> Path:
+    """The folder of a run of the small atlas that was interrupted."""
+    from small_atlas import half_run
+
+    return half_run(tmp_path)

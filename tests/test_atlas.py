@@ -9,7 +9,7 @@ from typing import Any
 
 import pyarrow as pa
 import pytest
-from small_atlas import LIST, SETTINGS, Replay, contents, half_run, measured, whole_run
+from small_atlas import LIST, SETTINGS, Replay, contents
 
 from knotopt.atlas import run as running
 from knotopt.atlas.engine import Local
@@ -36,21 +36,6 @@ from knotopt.catalogue.lookup import find_knot
 from knotopt.comparison import compare
 from knotopt.errors import FileFormatError, OutputError, RequirementError
 from knotopt.supports.search import best_supports
-
-
-@pytest.fixture(name="results")
-def _results() -> dict[int, KnotResult]:
-    return measured()
-
-
-@pytest.fixture(name="whole")
-def _whole(tmp_path: Path) -> Path:
-    return whole_run(tmp_path)
-
-
-@pytest.fixture(name="half")
-def _half(tmp_path: Path) -> Path:
-    return half_run(tmp_path)
 
 
 def test_rows_agree_with_compare_and_search(results: dict[int, KnotResult]) -> None:

@@ -13,7 +13,7 @@ from typing import Any
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from small_atlas import LIST, SETTINGS, Replay, contents, half_run, measured, whole_run
+from small_atlas import LIST, SETTINGS, Replay, contents
 
 from knotopt.atlas.engine import Engine, EngineError
 from knotopt.atlas.item import KnotResult
@@ -27,21 +27,6 @@ from knotopt.atlas.schema import (
 )
 from knotopt.atlas.store import read_rows
 from knotopt.errors import OutputError
-
-
-@pytest.fixture(name="results")
-def _results() -> dict[int, KnotResult]:
-    return measured()
-
-
-@pytest.fixture(name="whole")
-def _whole(tmp_path: Path) -> Path:
-    return whole_run(tmp_path)
-
-
-@pytest.fixture(name="half")
-def _half(tmp_path: Path) -> Path:
-    return half_run(tmp_path)
 
 
 @pytest.mark.parametrize(
