@@ -90,7 +90,7 @@ def _scratch(folder: Path, page: Path) -> dict[str, str]:
                 "formulations/backends/__init__.py",
                 "tests/test_minimal.py::test_every_solver_gives_the_same_canonical_set",
                 "tests/test_formulations.py::test_all_solvers_find_the_optimum",
-                "tests/test_formulations.py::test_instances_that_need_no_solver",
+                "tests/test_solving.py::test_instances_that_need_no_solver",
             ],
         ),
         ("family", ["knotopt/diagram/families.py", "tests/test_twist.py"]),
