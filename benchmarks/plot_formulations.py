@@ -7,26 +7,13 @@ from collections import Counter, defaultdict
 from statistics import mean, median
 from typing import Any
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from benchmarks.plot import FAMILIES, load
+from knotopt.atlas.report.performance import SHIFT, SOLVERS, draw_profile, shifted_geometric_mean
 from knotopt.plot.figures import PANEL
 
-SHIFT = 0.01  # of the geometric mean of times [s]
-SOLVERS = {
-    "cp-sat": ("CP-SAT", "-", "#0072B2"),
-    "maxsat": ("RC2 (MaxSAT)", "--", "#009E73"),
-    "highs": ("HiGHS (cvxpy)", "-.", "#D55E00"),
-    "scip": ("SCIP (cvxpy)", ":", "#CC79A7"),
-    "exhaustive": ("exhaustive", (0, (1, 3)), "#666666"),
-}
 Rows = list[dict[str, Any]]
-
-
-def shifted_geometric_mean(times: list[float]) -> float:
-    """exp(mean(log(t + SHIFT))) - SHIFT [s]."""
-    return math.exp(mean(math.log(t + SHIFT) for t in times)) - SHIFT
 
 
 def counts_table(rows: Rows) -> str:
@@ -133,33 +120,16 @@ def solver_table(rows: Rows) -> str:
 
 def profile_figure(rows: Rows) -> Figure:
     """Performance profile on `opening`: share of instances solved within x times the fastest."""
-    ratios: dict[str, list[float]] = defaultdict(list)
+    programs: list[dict[str, float]] = []
     for row in rows:
         by_cut: dict[str, dict[str, float]] = defaultdict(dict)
         for run in row["runs"]:
             if row["formulation"] == "opening" and run["solver"] != "exhaustive":
                 solved = run["status"] == "optimal"
                 by_cut[run["cut"]][run["solver"]] = run["seconds"] if solved else math.inf
-        for times in by_cut.values():
-            for solver, seconds in times.items():
-                ratios[solver].append(seconds / min(times.values()))
+        programs += by_cut.values()
     figure = Figure(figsize=(PANEL, PANEL), layout="constrained")
-    axes = figure.subplots()
-    for solver, (label, style, colour) in SOLVERS.items():
-        if ratios[solver]:
-            values = np.sort(ratios[solver])
-            share = np.arange(1, len(values) + 1) / len(values)
-            axes.step(values, share, where="post", label=label, linestyle=style, color=colour)
-    axes.set(
-        xscale="log",
-        xlabel="time over the fastest solver's",
-        ylabel="share of instances",
-        ylim=(0, 1.02),
-    )
-    axes.set_xticks([1, 2, 5, 10, 20], labels=["1", "2", "5", "10", "20"], minor=False)
-    axes.minorticks_off()
-    axes.legend(fontsize=7, frameon=False, loc="lower right")
-    axes.grid(alpha=0.3)
+    draw_profile(figure.subplots(), programs)
     return figure
 
 

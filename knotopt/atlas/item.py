@@ -11,71 +11,89 @@ import importlib.metadata
 import resource
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
-from formulations.instance import Instance
-from formulations.solution import Limits, Solution
 from knotopt import __version__
-from knotopt.atlas.schema import AtlasRow, KnotRow, PathRow, Settings, TimesRow
+from knotopt.atlas.programs import SOLVER, Solved, solve, try_span
+from knotopt.atlas.requested import PathRow
+from knotopt.atlas.schema import (
+    FLIGHT_TIMES,
+    FLIGHTS,
+    PATHS,
+    SOLVER_TIMES,
+    SOLVERS,
+    AtlasRow,
+    KnotRow,
+    Settings,
+    TimesRow,
+)
+from knotopt.atlas.solvers import PACKAGES, compare_solvers
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import outer_cuts
-from knotopt.errors import RequirementError
 from knotopt.path.measures import both_methods, measure
 from knotopt.supports.choice import GivenSupports
 from knotopt.supports.lcf import LcfResult, lcf
-from knotopt.supports.minimal import compile_program, find_backend
-from knotopt.supports.requirements import Formulation, Requirements
+from knotopt.supports.minimal import find_backend
+from knotopt.supports.requirements import Formulation
 from knotopt.supports.support_set import SupportSet
 from knotopt.supports.threading import Threading
 from knotopt.verify.opening import check_opening
 from knotopt.verify.regions import define_regions
 from knotopt.verify.span import check_span
 
-SOLVER = "cp-sat"
 _PACKAGES = ("numpy", "ortools")
 _PATH_PACKAGES = ("scipy", "shapely", "casadi", "pythoncdt")
+_FLIGHT_PACKAGES = ("mujoco", "scipy", "shapely")
 
 
 @dataclass(frozen=True)
 class KnotResult:
-    """What came of one knot: a row a cut, in the order of the outer cuts, and rows of paths."""
+    """What came of one knot: a row a cut, in the order of the outer cuts.
+
+    `requested` has the rows of the files that were asked for, by the file's name.
+    """
 
     number: int
     versions: dict[str, str]
     rows: tuple[AtlasRow, ...]
     times: tuple[TimesRow, ...]
-    paths: tuple[PathRow, ...] = ()
-
-
-@dataclass(frozen=True)
-class _Solved:
-    """A smallest set, the program it solves, and the time of both [s]."""
-
-    instance: Instance
-    solution: Solution
-    seconds: float
-
-    @property
-    def supports(self) -> tuple[int, ...] | None:
-        """The set without p_1 and p_n."""
-        return None if self.solution.chosen is None else self.solution.chosen[1:-1]
-
-    def allows(self, chosen: SupportSet) -> bool:
-        """Whether a set satisfies every row of the program."""
-        ends = (1, *chosen.supports, len(chosen.cable.path))
-        return not self.instance.violated(self.instance.complete(ends))
+    requested: dict[str, tuple[Any, ...]] = field(default_factory=dict)
 
 
 def versions(settings: Settings) -> dict[str, str]:
     """Versions of what the results depend on, in this process."""
-    packages = _PACKAGES + (_PATH_PACKAGES if settings.paths else ())
+    packages = [*_PACKAGES]
+    if settings.paths:
+        packages += _PATH_PACKAGES
+    for solver in settings.solvers:
+        packages += PACKAGES[solver]
+    if settings.physics:
+        packages += _FLIGHT_PACKAGES
     return {
         "knotopt": __version__,
         **{package: importlib.metadata.version(package) for package in packages},
     }
+
+
+def check_installed(settings: Settings) -> None:
+    """Whether this process has what the settings ask for.
+
+    Raises
+    ------
+    SolverError
+        A solver that does not exist.
+    MissingExtraError
+        A solver or the simulation is not installed; the message is the line that installs it.
+    """
+    for solver in settings.solvers:
+        find_backend(solver)
+    if settings.physics:
+        from knotopt.supports.flown import require_simulation
+
+        require_simulation()
 
 
 def is_checked(knot: KnotRow, settings: Settings) -> bool:
@@ -112,13 +130,15 @@ def measure_knot(knot: KnotRow, settings: Settings) -> KnotResult:
     """
     find_backend(SOLVER)  # its import is no knot's time
     diagram, checked = knot.diagram, is_checked(knot, settings)
-    rows, times, paths = [], [], []
+    rows, times = [], []
+    requested: dict[str, tuple[Any, ...]] = dict.fromkeys(settings.requested, ())
     for cut in outer_cuts(diagram):
-        row, spent, drawn = _measure_cut(knot, Cable(diagram, cut), settings, checked=checked)
+        row, spent, more = _measure_cut(knot, Cable(diagram, cut), settings, checked=checked)
         rows.append(row)
         times.append(spent)
-        paths += drawn
-    return KnotResult(knot.number, versions(settings), tuple(rows), tuple(times), tuple(paths))
+        for name, found in more.items():
+            requested[name] += tuple(found)
+    return KnotResult(knot.number, versions(settings), tuple(rows), tuple(times), requested)
 
 
 def agrees_with_definition(cable: Cable, row: AtlasRow, settings: Settings) -> bool:
@@ -159,18 +179,27 @@ def agrees_with_definition(cable: Cable, row: AtlasRow, settings: Settings) -> b
 
 def _measure_cut(
     knot: KnotRow, cable: Cable, settings: Settings, *, checked: bool
-) -> tuple[AtlasRow, TimesRow, list[PathRow]]:
+) -> tuple[AtlasRow, TimesRow, dict[str, Sequence[Any]]]:
     clock = _Clock()
     with clock("lcf"):
         plain = lcf(cable)
         layered = lcf(cable, layered=True)
-    opening = _solve(plain, settings, Formulation.OPENING, Threading.TURNING_POINT)
-    over_under = _solve(plain, settings, Formulation.OPENING, Threading.OVER_UNDER)
-    span = _try_span(plain, settings)
-    paths: list[PathRow] = []
+    opening = solve(plain, settings, Formulation.OPENING, Threading.TURNING_POINT)
+    over_under = solve(plain, settings, Formulation.OPENING, Threading.OVER_UNDER)
+    span = try_span(plain, settings)
+    more: dict[str, Sequence[Any]] = {}
     if settings.paths:
         with clock("paths"):
-            paths = _paths(knot, plain, opening)
+            more[PATHS] = _paths(knot, plain, opening)
+    programs = {Formulation.OPENING: opening, **({Formulation.SPAN: span} if span else {})}
+    if settings.solvers:
+        more[SOLVERS], more[SOLVER_TIMES] = compare_solvers(
+            knot, plain.cable, programs, settings, checked=checked
+        )
+    if settings.physics:
+        from knotopt.atlas.flights import fly_sets
+
+        more[FLIGHTS], more[FLIGHT_TIMES] = fly_sets(knot, plain, programs)
     row = AtlasRow(
         number=knot.number,
         knot=knot.knot,
@@ -212,32 +241,10 @@ def _measure_cut(
         check_seconds=clock.seconds.get("check"),
         worker_mib=_peak_mib(),
     )
-    return row, spent, paths
+    return row, spent, more
 
 
-def _solve(
-    plain: LcfResult, settings: Settings, formulation: Formulation, threading: Threading
-) -> _Solved:
-    began = time.perf_counter()
-    asked = Requirements(formulation, settings.r, threading)
-    instance = compile_program(plain, asked).instance(float(asked.openness**2))
-    solution = find_backend(SOLVER).solve(instance, Limits(seed=settings.seed))
-    if solution.interrupted:
-        raise KeyboardInterrupt
-    return _Solved(instance, solution, time.perf_counter() - began)
-
-
-def _try_span(plain: LcfResult, settings: Settings) -> _Solved | None:
-    """The smallest set of `span`; None if not asked for, or the diagram is too large for it."""
-    if not settings.span:
-        return None
-    try:
-        return _solve(plain, settings, Formulation.SPAN, Threading.OVER_UNDER)
-    except RequirementError:
-        return None
-
-
-def _columns(prefix: str, solved: _Solved | None, status: str | None = None) -> dict[str, Any]:
+def _columns(prefix: str, solved: Solved | None, status: str | None = None) -> dict[str, Any]:
     """The columns of one program; without it empty ones, but for the status."""
     cells: dict[str, Any] = dict.fromkeys(
         ("robots", "bound", "status", "supports", "rows", "instance")
@@ -256,7 +263,7 @@ def _columns(prefix: str, solved: _Solved | None, status: str | None = None) -> 
     return {f"{prefix}_{name}": value for name, value in cells.items()}
 
 
-def _paths(knot: KnotRow, plain: LcfResult, opening: _Solved) -> list[PathRow]:
+def _paths(knot: KnotRow, plain: LcfResult, opening: Solved) -> list[PathRow]:
     sets: list[tuple[str, SupportSet]] = [("lcf", plain)]
     if opening.supports is not None:
         sets.append(("opening", GivenSupports(plain.cable, opening.supports)))

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 
 from knotopt.atlas.engine import Engine, EngineError
-from knotopt.atlas.item import KnotResult, measure_knot, versions
+from knotopt.atlas.item import KnotResult, check_installed, measure_knot, versions
 from knotopt.atlas.schema import KnotRow, Manifest, Settings, list_hash
 from knotopt.atlas.store import opened
 
@@ -56,9 +56,12 @@ def run_atlas(
         The folder is not of this run, or nothing can be written; parts written so far stay.
     EngineError
         Workers died, or have other versions.
+    SolverError, MissingExtraError
+        A solver that does not exist, or something that is not installed; nothing is written then.
     KeyboardInterrupt
         After what is measured was written.
     """
+    check_installed(settings)
     manifest = Manifest(settings, versions(settings), len(knots), list_hash(knots))
     with opened(folder, manifest, knots) as run:
         before = len(knots) if run.is_complete else len(run.done)

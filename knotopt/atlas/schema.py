@@ -2,21 +2,25 @@
 
 A run's folder has `manifest.json` (what was asked, with which versions), `knots.parquet` (the list
 of knots, with grids), `parts/` while it is under way, and in the end `atlas.parquet` (one row a
-knot and cut), `times.parquet` (one row for each of these: what differs from run to run) and, where
-paths were asked for, `paths.parquet`. All but `times.parquet` are the same byte for byte for the
-same list, settings and versions. Rows are sorted by `number`, then by cut in the order L+ ... T-.
+knot and cut) and `times.parquet` (one row for each of these: what differs from run to run). On
+request: `paths.parquet`; `solvers.parquet` with `solver_times.parquet`; `flights.parquet` with
+`flight_times.parquet`. All but the three files of times are the same byte for byte for the same
+list, settings and versions (flights: on the same kind of machine; solvers: those that no time limit
+stopped). Rows are sorted by `number`, then by cut in the order L+ ... T-.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
+import math
 from dataclasses import Field, asdict, dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 from knotopt.diagram.grid import GridDiagram
+from knotopt.errors import RequirementError
 
 FORMAT = "knotopt atlas 1"
 MANIFEST, KNOTS, ATLAS, TIMES, PATHS, PARTS = (
@@ -27,9 +31,12 @@ MANIFEST, KNOTS, ATLAS, TIMES, PATHS, PARTS = (
     "paths.parquet",
     "parts",
 )
+SOLVERS, SOLVER_TIMES = "solvers.parquet", "solver_times.parquet"
+FLIGHTS, FLIGHT_TIMES = "flights.parquet", "flight_times.parquet"
 
 
-def _about(meaning: str) -> Any:
+def about(meaning: str) -> Any:
+    """A column of a row, and what it holds in words."""
     return field(metadata={"meaning": meaning})
 
 
@@ -53,6 +60,17 @@ class Settings:
         Whether the smallest set of `span`, and the cable paths, are computed too.
     check : int
         The sets of one knot in so many are examined by the definition; 0: of none.
+    solvers : tuple of str
+        By which the programs are solved as well.
+    solver_limit : float
+        Of each of these solves [s].
+    physics : bool
+        Whether the sets are flown in simulation too.
+
+    Raises
+    ------
+    RequirementError
+        A time limit that makes no sense.
     """
 
     openness: str = "1/2"
@@ -60,6 +78,44 @@ class Settings:
     span: bool = False
     paths: bool = False
     check: int = 16
+    solvers: tuple[str, ...] = ()
+    solver_limit: float = 60.0
+    physics: bool = False
+
+    def __post_init__(self) -> None:
+        if not 0 < self.solver_limit < math.inf:
+            raise RequirementError(
+                f"the time limit of a solver must be positive, not {self.solver_limit} s"
+            )
+
+    @property
+    def requested(self) -> tuple[str, ...]:
+        """The files that a run has on request."""
+        return (
+            *((PATHS,) if self.paths else ()),
+            *((SOLVERS, SOLVER_TIMES) if self.solvers else ()),
+            *((FLIGHTS, FLIGHT_TIMES) if self.physics else ()),
+        )
+
+    @property
+    def content(self) -> dict[str, Any]:
+        """As values that JSON knows, which `from_content` takes back.
+
+        Without the settings after `check` where nothing was asked of them: a run that does without
+        has the manifest that it had when there were none.
+        """
+        usual = Settings()
+        late = ("solvers", "solver_limit", "physics")
+        return {
+            name: list(value) if isinstance(value, tuple) else value
+            for name, value in asdict(self).items()
+            if name not in late or value != getattr(usual, name)
+        }
+
+    @classmethod
+    def from_content(cls, content: dict[str, Any]) -> Settings:
+        """The inverse of `content`."""
+        return cls(**{**content, "solvers": tuple(content.get("solvers", ()))})
 
     @property
     def r(self) -> Fraction:
@@ -71,17 +127,17 @@ class Settings:
 class KnotRow:
     """One knot of the list: a row of `knots.parquet`, and one item of work."""
 
-    number: int = _about("place in the list, from 1")
-    knot: str = _about("name; of a grid from a file, the file's name")
-    source: str = _about("where the diagram comes from, in words")
-    grid_size: int = _about("N; of a smallest diagram the arc index")
-    minus: tuple[int, ...] = _about("row of the -1 in columns 1 ... N")
-    plus: tuple[int, ...] = _about("row of the +1 in columns 1 ... N")
-    crossing_number: int | None = _about("of the knot, where a table says it")
-    arc_index: int | None = _about("of the knot, where a table says it")
-    alternating: bool | None = _about("whether the knot is, where a table says it")
-    determinant: int | None = _about("of the knot, where a table says it")
-    signature: int | None = _about("of the knot in KnotInfo's sign, where a table says it")
+    number: int = about("place in the list, from 1")
+    knot: str = about("name; of a grid from a file, the file's name")
+    source: str = about("where the diagram comes from, in words")
+    grid_size: int = about("N; of a smallest diagram the arc index")
+    minus: tuple[int, ...] = about("row of the -1 in columns 1 ... N")
+    plus: tuple[int, ...] = about("row of the +1 in columns 1 ... N")
+    crossing_number: int | None = about("of the knot, where a table says it")
+    arc_index: int | None = about("of the knot, where a table says it")
+    alternating: bool | None = about("whether the knot is, where a table says it")
+    determinant: int | None = about("of the knot, where a table says it")
+    signature: int | None = about("of the knot in KnotInfo's sign, where a table says it")
 
     @property
     def diagram(self) -> GridDiagram:
@@ -98,42 +154,42 @@ class AtlasRow:
     (empty unless asked for). "Open" is by `opening` in the mode named.
     """
 
-    number: int = _about("the knot's place in the list, from 1")
-    knot: str = _about("name")
-    crossing_number: int | None = _about("of the knot, where a table says it")
-    grid_size: int = _about("N")
-    crossings: int = _about("of the diagram")
-    cut: str = _about("outer cut, L+ ... T-")
-    baseline: int = _about("robots at all 2N turning points")
-    lcf_robots: int = _about("robots of the Loop Consistency Filter's set")
-    lcf_supports: tuple[int, ...] = _about("LCF's set: turning points, from 1, without the ends")
-    lcf_open: bool = _about("whether LCF's set is open, turning-point")
-    lcf_open_over_under: bool = _about("whether LCF's set is open, over-under")
-    lcf_below: bool = _about("whether LCF uses fewer robots than any open set, turning-point")
-    lcf_below_over_under: bool = _about("whether LCF uses fewer robots than any open set, o.-u.")
-    layered_robots: int = _about("robots of LCF's layered set")
-    layered_supports: tuple[int, ...] = _about("LCF's layered set")
-    layered_open: bool = _about("whether the layered set is open, turning-point")
-    layered_open_over_under: bool = _about("whether the layered set is open, over-under")
-    opening_robots: int | None = _about("robots of the smallest open set, turning-point")
-    opening_bound: int | None = _about("no open set has fewer robots, turning-point")
-    opening_status: str = _about("optimal, feasible, infeasible, unknown or error")
-    opening_supports: tuple[int, ...] | None = _about("a smallest open set, turning-point")
-    opening_rows: int = _about("rows of the 0-1 program, turning-point")
-    opening_instance: str = _about("first 16 digits of the SHA-256 of that program")
-    over_under_robots: int | None = _about("robots of the smallest open set, over-under")
-    over_under_bound: int | None = _about("no open set has fewer robots, over-under")
-    over_under_status: str = _about("optimal, feasible, infeasible, unknown or error")
-    over_under_supports: tuple[int, ...] | None = _about("a smallest open set, over-under")
-    over_under_rows: int = _about("rows of the 0-1 program, over-under")
-    over_under_instance: str = _about("first 16 digits of the SHA-256 of that program")
-    span_robots: int | None = _about("robots of the smallest set of `span`")
-    span_bound: int | None = _about("no set that `span` allows has fewer robots")
-    span_status: str | None = _about("as of `opening`, or refused: the diagram is too large")
-    span_supports: tuple[int, ...] | None = _about("a smallest set of `span`")
-    span_rows: int | None = _about("rows of the 0-1 program of `span`")
-    span_instance: str | None = _about("first 16 digits of the SHA-256 of that program")
-    checked: bool | None = _about(
+    number: int = about("the knot's place in the list, from 1")
+    knot: str = about("name")
+    crossing_number: int | None = about("of the knot, where a table says it")
+    grid_size: int = about("N")
+    crossings: int = about("of the diagram")
+    cut: str = about("outer cut, L+ ... T-")
+    baseline: int = about("robots at all 2N turning points")
+    lcf_robots: int = about("robots of the Loop Consistency Filter's set")
+    lcf_supports: tuple[int, ...] = about("LCF's set: turning points, from 1, without the ends")
+    lcf_open: bool = about("whether LCF's set is open, turning-point")
+    lcf_open_over_under: bool = about("whether LCF's set is open, over-under")
+    lcf_below: bool = about("whether LCF uses fewer robots than any open set, turning-point")
+    lcf_below_over_under: bool = about("whether LCF uses fewer robots than any open set, o.-u.")
+    layered_robots: int = about("robots of LCF's layered set")
+    layered_supports: tuple[int, ...] = about("LCF's layered set")
+    layered_open: bool = about("whether the layered set is open, turning-point")
+    layered_open_over_under: bool = about("whether the layered set is open, over-under")
+    opening_robots: int | None = about("robots of the smallest open set, turning-point")
+    opening_bound: int | None = about("no open set has fewer robots, turning-point")
+    opening_status: str = about("optimal, feasible, infeasible, unknown or error")
+    opening_supports: tuple[int, ...] | None = about("a smallest open set, turning-point")
+    opening_rows: int = about("rows of the 0-1 program, turning-point")
+    opening_instance: str = about("first 16 digits of the SHA-256 of that program")
+    over_under_robots: int | None = about("robots of the smallest open set, over-under")
+    over_under_bound: int | None = about("no open set has fewer robots, over-under")
+    over_under_status: str = about("optimal, feasible, infeasible, unknown or error")
+    over_under_supports: tuple[int, ...] | None = about("a smallest open set, over-under")
+    over_under_rows: int = about("rows of the 0-1 program, over-under")
+    over_under_instance: str = about("first 16 digits of the SHA-256 of that program")
+    span_robots: int | None = about("robots of the smallest set of `span`")
+    span_bound: int | None = about("no set that `span` allows has fewer robots")
+    span_status: str | None = about("as of `opening`, or refused: the diagram is too large")
+    span_supports: tuple[int, ...] | None = about("a smallest set of `span`")
+    span_rows: int | None = about("rows of the 0-1 program of `span`")
+    span_instance: str | None = about("first 16 digits of the SHA-256 of that program")
+    checked: bool | None = about(
         "whether the independent checkers find the smallest sets open, and LCF's as said here; "
         "empty where they were not asked"
     )
@@ -143,45 +199,19 @@ class AtlasRow:
 class TimesRow:
     """What differs from run to run: a row of `times.parquet`, for the same row of the atlas."""
 
-    number: int = _about("the knot's place in the list, from 1")
-    knot: str = _about("name")
-    cut: str = _about("outer cut, L+ ... T-")
-    lcf_seconds: float = _about("LCF and its layered set [s]")
-    opening_seconds: float = _about("compile, build and solve, turning-point, without LCF [s]")
-    opening_solve_seconds: float = _about("the solver alone, turning-point [s]")
-    over_under_seconds: float = _about("compile, build and solve, over-under [s]")
-    over_under_solve_seconds: float = _about("the solver alone, over-under [s]")
-    span_seconds: float | None = _about("compile, build and solve, `span` [s]")
-    span_solve_seconds: float | None = _about("the solver alone, `span` [s]")
-    paths_seconds: float | None = _about("four paths and their checks [s]")
-    check_seconds: float | None = _about("the independent checkers [s]")
-    worker_mib: float = _about("largest memory of the worker's process so far [MiB]")
-
-
-@dataclass(frozen=True)
-class PathRow:
-    """One cable path: a row of `paths.parquet`. Lengths in grid steps, empty: nothing to measure.
-
-    Sorted like the atlas, then LCF before the smallest open set, relaxation before program.
-    """
-
-    number: int = _about("the knot's place in the list, from 1")
-    knot: str = _about("name")
-    cut: str = _about("outer cut, L+ ... T-")
-    supports: str = _about("whose supports: lcf, or opening (turning-point)")
-    method: str = _about("relaxation (eq. 11-13) or nlp")
-    robots: int = _about("supports and the two lifting robots")
-    status: str = _about("what came of it: solved, converged, stopped ...")
-    length: float = _about("of the path in space [grid steps]")
-    stretch: float = _about("length over that of the taut string")
-    smallest_radius: float = _about("of a turn [grid steps]")
-    clearance: float | None = _about("smallest distance of strands in plan [grid steps]")
-    opening: float | None = _about("room where a strand threads an active region [grid steps]")
-    gap: float | None = _about("vertical distance at crossings [grid steps]")
-    same_diagram: bool = _about("whether the path has the grid's diagram")
-    same_knot: bool = _about("whether its Alexander polynomial is the grid's")
-    smooth: bool = _about("whether the spline, not the polyline, was kept")
-    blocked: str = _about("which limit the program could not meet, in words")
+    number: int = about("the knot's place in the list, from 1")
+    knot: str = about("name")
+    cut: str = about("outer cut, L+ ... T-")
+    lcf_seconds: float = about("LCF and its layered set [s]")
+    opening_seconds: float = about("compile, build and solve, turning-point, without LCF [s]")
+    opening_solve_seconds: float = about("the solver alone, turning-point [s]")
+    over_under_seconds: float = about("compile, build and solve, over-under [s]")
+    over_under_solve_seconds: float = about("the solver alone, over-under [s]")
+    span_seconds: float | None = about("compile, build and solve, `span` [s]")
+    span_solve_seconds: float | None = about("the solver alone, `span` [s]")
+    paths_seconds: float | None = about("four paths and their checks [s]")
+    check_seconds: float | None = about("the independent checkers [s]")
+    worker_mib: float = about("largest memory of the worker's process so far [MiB]")
 
 
 @dataclass(frozen=True)
@@ -207,7 +237,8 @@ class Manifest:
     @cached_property
     def text(self) -> str:
         """As JSON, the same text for the same run."""
-        return json.dumps({"format": FORMAT, **asdict(self)}, indent=1) + "\n"
+        content = {**asdict(self), "settings": self.settings.content}
+        return json.dumps({"format": FORMAT, **content}, indent=1) + "\n"
 
     @classmethod
     def from_text(cls, text: str) -> Manifest:
@@ -221,7 +252,7 @@ class Manifest:
         content = json.loads(text)
         if content.pop("format") != FORMAT:
             raise ValueError(f"not of format {FORMAT!r}")
-        return cls(**{**content, "settings": Settings(**content["settings"])})
+        return cls(**{**content, "settings": Settings.from_content(content["settings"])})
 
 
 def list_hash(knots: tuple[KnotRow, ...]) -> str:

@@ -1,7 +1,8 @@
 """A run's folder: begun as a whole, filled by parts, each whole or not there, and merged.
 
-A part holds whole knots, with the columns of the atlas, of the times, and the paths as a list. Its
-metadata is the manifest and its pages have checksums, so that nothing foreign or damaged is merged.
+A part holds whole knots, with the columns of the atlas, of the times, and the rows that were
+requested as lists. Its metadata is the manifest and its pages have checksums, so that nothing
+foreign or damaged is merged.
 """
 
 from __future__ import annotations
@@ -20,17 +21,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from knotopt.atlas.item import KnotResult
+from knotopt.atlas.requested import ON_REQUEST
 from knotopt.atlas.schema import (
     ATLAS,
     KNOTS,
     MANIFEST,
     PARTS,
-    PATHS,
     TIMES,
     AtlasRow,
     KnotRow,
     Manifest,
-    PathRow,
     TimesRow,
     meaning,
 )
@@ -96,8 +96,11 @@ class Run:
         rows: list[dict[str, Any]] = []
         for result in results:
             for row, times in zip(result.rows, result.times, strict=True):
-                paths = [asdict(path) for path in result.paths if path.cut == row.cut]
-                rows.append({**asdict(row), **asdict(times), "paths": paths})
+                lists = {
+                    _list_of(name): [asdict(each) for each in found if each.cut == row.cut]
+                    for name, found in result.requested.items()
+                }
+                rows.append({**asdict(row), **asdict(times), **lists})
         if not rows:
             return
         last = int(self._parts[-1].stem.removeprefix("part-")) if self._parts else 0
@@ -117,10 +120,10 @@ class Run:
         if not self.is_complete:
             table = pa.concat_tables([self._read(part) for part in self._parts])
             table = table.combine_chunks().sort_by("number")  # stable: cuts are in order
-            if self.manifest.settings.paths:
-                paths = table["paths"].combine_chunks().flatten()
-                drawn = pa.Table.from_batches([pa.RecordBatch.from_struct_array(paths)])
-                self._write(PATHS, drawn, PathRow)
+            for name in self.manifest.settings.requested:
+                found = table[_list_of(name)].combine_chunks().flatten()
+                rows = pa.Table.from_batches([pa.RecordBatch.from_struct_array(found)])
+                self._write(name, rows, ON_REQUEST[name])
             self._write(TIMES, table, TimesRow)
             self._write(ATLAS, table, AtlasRow)  # last: it says that the run is complete
             self.is_complete = True
@@ -136,7 +139,8 @@ class Run:
     def _read(self, part: Path) -> pa.Table:
         table = _read_table(part, "its knots are then measured again")
         _check_origin(part, table, self.manifest)
-        return table
+        # Earlier releases kept a list of paths, empty where none were asked for.
+        return table.select(_part_schema(self.manifest).names)
 
     def _numbers(self, part: Path) -> set[int]:
         numbers, rows = np.unique(self._read(part)["number"].to_numpy(), return_counts=True)
@@ -194,7 +198,7 @@ def read_manifest(folder: Path) -> Manifest:
 
 
 def read_rows(folder: Path, name: str) -> pa.Table:
-    """The table of one of a run's files: KNOTS, ATLAS, TIMES or PATHS.
+    """The table of one of a run's files: KNOTS, ATLAS, TIMES, or one that was requested.
 
     Raises
     ------
@@ -230,8 +234,15 @@ def _part_schema(manifest: Manifest) -> pa.Schema:
     for column in arrow_schema(TimesRow, manifest):
         if column.name not in _KEYS:
             schema = schema.append(column)
-    paths = pa.struct(list(arrow_schema(PathRow, manifest)))
-    return schema.append(pa.field("paths", pa.list_(paths)))
+    for name in manifest.settings.requested:
+        rows = pa.struct(list(arrow_schema(ON_REQUEST[name], manifest)))
+        schema = schema.append(pa.field(_list_of(name), pa.list_(rows)))
+    return schema
+
+
+def _list_of(name: str) -> str:
+    """The column of a part that holds the rows of a file."""
+    return name.removesuffix(".parquet")
 
 
 def _to_bytes(table: pa.Table) -> bytes:
@@ -257,6 +268,13 @@ def _check_origin(path: Path, table: pa.Table, manifest: Manifest) -> None:
 def _compare(folder: Path, begun: Manifest, now: Manifest) -> None:
     """Raise if a folder's run is not the one asked for."""
     otherwise = "name another folder"
+    for name, value in asdict(now.settings).items():
+        there = getattr(begun.settings, name)
+        if there != value:
+            raise OutputError(
+                f"{folder} was begun with {name} = {_said(there)}, not {_said(value)}: "
+                f"finish it with that, or {otherwise}"
+            )
     for package, version in now.versions.items():
         there = begun.versions.get(package, "none")
         if there != version:
@@ -264,15 +282,12 @@ def _compare(folder: Path, begun: Manifest, now: Manifest) -> None:
                 f"{folder} was begun with {package} {there}, here is {version}: "
                 f"finish it with that one, or {otherwise}"
             )
-    for name, value in asdict(now.settings).items():
-        there = getattr(begun.settings, name)
-        if there != value:
-            raise OutputError(
-                f"{folder} was begun with {name} = {there}, not {value}: "
-                f"finish it with that, or {otherwise}"
-            )
     if begun != now:
         raise OutputError(
             f"{folder} was begun with another list, of {begun.knots} knots: "
             f"finish it with that one, or {otherwise}"
         )
+
+
+def _said(value: object) -> str:
+    return ", ".join(value) or "none" if isinstance(value, tuple) else str(value)

@@ -49,6 +49,31 @@ def atlas(
         bool,
         typer.Option("--paths", help="Cable paths of LCF's set and the smallest open one, too."),
     ] = False,
+    solvers: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME,NAME...",
+            show_default=False,
+            help="Solve the programs by each of these as well: cp-sat, highs, scip, maxsat (RC2), "
+            "exhaustive.",
+        ),
+    ] = None,
+    solver_limit: Annotated[
+        float | None,
+        typer.Option(
+            metavar="SECONDS",
+            show_default=False,
+            help="With --solvers: of each solve; 60.",
+        ),
+    ] = None,
+    physics: Annotated[
+        bool,
+        typer.Option(
+            "--physics",
+            help="Fly the sets in simulation, too (the sim extra): seconds to a minute a flight, "
+            "up to 24 flights a knot.",
+        ),
+    ] = False,
     r: OpennessOption = None,
     seed: Annotated[int, typer.Option(min=0, max=2**31 - 1, help="Of the solver.")] = 0,
     check: Annotated[
@@ -78,7 +103,19 @@ def atlas(
     from knotopt.supports.requirements import Requirements
 
     listed = _list(knots, grids, catalogue=catalogue, knotinfo=knotinfo)
-    settings = Settings(str(Requirements(openness=r).openness), seed, span, paths, check)
+    usual = Settings()
+    if solver_limit is not None and solvers is None:
+        raise typer.BadParameter("goes with --solvers", param_hint="--solver-limit")
+    settings = Settings(
+        str(Requirements(openness=r).openness),
+        seed,
+        span,
+        paths,
+        check,
+        usual.solvers if solvers is None else _solvers(solvers),
+        usual.solver_limit if solver_limit is None else solver_limit,
+        physics,
+    )
     engine = _engine(jobs, scheduler)
     state: Progress | None = None
     try:
@@ -114,6 +151,17 @@ def _list(
     if knots:
         return knot_rows(map(find_knot, knots))
     return folder_rows(grids) if grids else catalogue_rows(knotinfo=knotinfo)
+
+
+def _solvers(text: str) -> tuple[str, ...]:
+    """The solvers named, in one order whatever order they are named in."""
+    from formulations.backends import BACKENDS
+    from knotopt.supports.minimal import find_backend
+
+    names = {name.strip() for name in text.split(",")}
+    for name in sorted(names - set(BACKENDS)):
+        find_backend(name)  # raises the error that lists them
+    return tuple(name for name in BACKENDS if name in names)
 
 
 def _engine(jobs: int | None, scheduler: str | None) -> Engine:
@@ -173,6 +221,26 @@ def _bar() -> Iterator[Callable[[Progress], None]]:
         yield show
 
 
+def _requested_facts(run_dir: Path) -> list[tuple[str, object]]:
+    """How many programs each solver proved, and how many flights of each set tied the knot."""
+    from knotopt.atlas.schema import FLIGHTS, SOLVERS
+    from knotopt.atlas.store import read_manifest, read_rows
+
+    facts: list[tuple[str, object]] = []
+    for name, group, held, words in (
+        (SOLVERS, "solver", "proven", "programs proven"),
+        (FLIGHTS, "supports", "tied", "flights that tie"),
+    ):
+        if name not in read_manifest(run_dir).settings.requested:
+            continue
+        counts: dict[str, list[bool]] = {}
+        for row in read_rows(run_dir, name).select([group, held]).to_pylist():
+            counts.setdefault(row[group], []).append(row[held])
+        parts = [f"{each} {sum(found)} of {len(found)}" for each, found in counts.items()]
+        facts.append((words, ", ".join(parts)))
+    return facts
+
+
 def _summarise(run_dir: Path) -> None:
     """What the atlas says on average; an error if a checker contradicts it."""
     import pyarrow.compute as pc
@@ -207,6 +275,7 @@ def _summarise(run_dir: Path) -> None:
             ("LCF open", share("lcf_open")),
             ("LCF below every open set", share("lcf_below")),
             ("checked by definition", f"{len(checked)} rows, {wrong} wrong"),
+            *_requested_facts(run_dir),
         ]
     )
     print_written(run_dir / ATLAS)

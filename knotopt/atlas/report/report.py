@@ -19,6 +19,7 @@ from knotopt.atlas.report.figures import (
     relations_figure,
     robots_figure,
 )
+from knotopt.atlas.report.flights import flights_section
 from knotopt.atlas.report.gallery import gallery_figure
 from knotopt.atlas.report.heuristic import heuristic_section
 from knotopt.atlas.report.invariants import Invariants, invariants, knotinfo_version
@@ -29,6 +30,7 @@ from knotopt.atlas.report.page import page
 from knotopt.atlas.report.relations import relations_section
 from knotopt.atlas.report.results import Results
 from knotopt.atlas.report.robots import robots_section
+from knotopt.atlas.report.solvers import PROFILE, profile_figure, solvers_section
 from knotopt.atlas.report.times import paths_section, times_section
 from knotopt.plot.figures import figure_bytes
 
@@ -77,6 +79,8 @@ def report_document(results: Results, known: Mapping[str, Invariants]) -> Docume
         relations_section(results, known),
         cases_section(results),
         paths_section(results),
+        flights_section(results),
+        solvers_section(results),
         times_section(results),
     )
     return Document(TITLE, facts, tuple(each for each in sections if each is not None))
@@ -107,4 +111,5 @@ def _figures(results: Results, known: Mapping[str, Invariants]) -> dict[str, Cal
         "relations": lambda: relations_figure(results, known),
         "wasteful": lambda: gallery_figure(wasteful(results), r),
         "failing": lambda: gallery_figure(failing(results), r),
+        PROFILE: lambda: profile_figure(results),
     }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,18 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from knotopt.atlas.schema import ATLAS, KNOTS, PATHS, TIMES, KnotRow, Manifest
+from knotopt.atlas.schema import (
+    ATLAS,
+    FLIGHT_TIMES,
+    FLIGHTS,
+    KNOTS,
+    PATHS,
+    SOLVER_TIMES,
+    SOLVERS,
+    TIMES,
+    KnotRow,
+    Manifest,
+)
 from knotopt.atlas.store import read_manifest, read_rows
 from knotopt.cable.cut import OUTER_CUTS
 from knotopt.errors import OutputError
@@ -19,6 +30,7 @@ from knotopt.errors import OutputError
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 Supports = tuple[int, ...]
+Row = dict[str, Any]
 
 METHODS = {
     "baseline": "baseline",
@@ -42,14 +54,15 @@ class Results:
         In the order of the list.
     rows, times : pyarrow.Table
         Eight rows a knot, in the order of the outer cuts.
-    paths : pyarrow.Table or None
+    requested : dict of str to pyarrow.Table
+        The files that the run was asked for, by name.
     """
 
     manifest: Manifest
     knots: tuple[KnotRow, ...]
     rows: pa.Table
     times: pa.Table
-    paths: pa.Table | None
+    requested: dict[str, pa.Table] = field(default_factory=dict)
 
     def cuts(self, column: str) -> FloatArray:
         """Numbers of a column of the atlas, empty cells as nan, shape (K, 8)."""
@@ -72,6 +85,21 @@ class Results:
     def supports(self, column: str, knot: int, cut: int) -> Supports:
         """A set of supports, without the ends."""
         return tuple(self.rows[column][len(OUTER_CUTS) * knot + cut].as_py())
+
+    @cached_property
+    def paths(self) -> list[Row]:
+        """Rows of the paths; none if the run was not asked for them."""
+        return self._listed(PATHS)
+
+    @cached_property
+    def solvers(self) -> list[Row]:
+        """Rows of the solvers with their times; none if the run was not asked for them."""
+        return self._joined(SOLVERS, SOLVER_TIMES)
+
+    @cached_property
+    def flights(self) -> list[Row]:
+        """Rows of the flights with their times; none if the run was not asked for them."""
+        return self._joined(FLIGHTS, FLIGHT_TIMES)
 
     @cached_property
     def methods(self) -> dict[str, str]:
@@ -103,6 +131,13 @@ class Results:
         """How many knots and cuts, in words."""
         return f"{_count(len(self.knots), 'knot')}, {_count(self.rows.num_rows, 'cut')}"
 
+    def _listed(self, name: str) -> list[Row]:
+        return list(self.requested[name].to_pylist()) if name in self.requested else []
+
+    def _joined(self, name: str, times: str) -> list[Row]:
+        pairs = zip(self._listed(name), self._listed(times), strict=True)
+        return [{**row, **spent} for row, spent in pairs]
+
     def _shaped(self, column: pa.ChunkedArray) -> FloatArray:
         values = column.cast(pa.float64()).to_numpy()
         return np.asarray(values, dtype=float).reshape(len(self.knots), len(OUTER_CUTS))
@@ -118,7 +153,7 @@ def read_results(folder: Path) -> Results:
     """
     manifest = read_manifest(folder)
     rows, times, listed = (read_rows(folder, name) for name in (ATLAS, TIMES, KNOTS))
-    paths = read_rows(folder, PATHS) if manifest.settings.paths else None
+    requested = {name: read_rows(folder, name) for name in manifest.settings.requested}
     knots = tuple(KnotRow(**_hashable(row)) for row in listed.to_pylist())
     numbers = np.repeat([knot.number for knot in knots], len(OUTER_CUTS))
     cuts = list(OUTER_CUTS) * len(knots)
@@ -133,7 +168,12 @@ def read_results(folder: Path) -> Results:
             f"{folder / ATLAS}: {missing} smallest open sets were not found; opening_status and "
             "over_under_status say why"
         )
-    return Results(manifest, knots, rows, times, paths)
+    for one, other in ((SOLVERS, SOLVER_TIMES), (FLIGHTS, FLIGHT_TIMES)):
+        if one in requested and requested[one].num_rows != requested[other].num_rows:
+            raise OutputError(
+                f"{folder / one} and {other} do not have the same rows: the run must be done again"
+            )
+    return Results(manifest, knots, rows, times, requested)
 
 
 def _hashable(row: dict[str, Any]) -> dict[str, Any]:

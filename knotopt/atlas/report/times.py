@@ -21,15 +21,19 @@ STEPS = {
 def times_section(results: Results) -> Section:
     """Times a cut of every step, the largest memory, and where solvers are compared."""
     memory = np.nanmax(results.seconds("worker_mib"))
+    where = (
+        "is in section Solvers."
+        if results.solvers
+        else "is the matter of the benchmark `solvers`: see `benchmarks/results/formulations.md` "
+        "in knotopt's repository."
+    )
     return Section(
         "Times",
         (
             times_table(results),
             f"The largest worker process had {memory:,.0f} MiB.",
             "The programs were solved by CP-SAT on one thread. How it compares with other solvers "
-            "(solved, proven, wrong, shifted geometric means, performance profile) is the matter "
-            "of the benchmark `solvers`: see `benchmarks/results/formulations.md` in knotopt's "
-            "repository.",
+            f"(solved, proven, wrong, shifted geometric means, performance profile) {where}",
         ),
     )
 
@@ -61,13 +65,12 @@ def times_table(results: Results) -> Table:
 
 def paths_section(results: Results) -> Section | None:
     """Medians of the paths' measures; None if the run has no paths."""
-    if results.paths is None:
+    if not results.paths:
         return None
     rows = []
-    groups = results.paths.to_pylist()
     for supports in ("lcf", "opening"):
         for method in ("relaxation", "nlp"):
-            paths = [p for p in groups if (p["supports"], p["method"]) == (supports, method)]
+            paths = [p for p in results.paths if (p["supports"], p["method"]) == (supports, method)]
             measures = ("stretch", "smallest_radius", "clearance", "opening", "gap")
             rows.append(
                 [

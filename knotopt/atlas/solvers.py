@@ -1,0 +1,125 @@
+"""The programs of a cut by several solvers, and what their sets are worth."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from functools import cache
+
+from formulations.instance import Instance, Row
+from formulations.solution import BackendError, Limits, Solution, Status
+from knotopt.atlas.programs import Solved
+from knotopt.atlas.requested import SolverRow, SolverTimesRow
+from knotopt.atlas.schema import KnotRow, Settings
+from knotopt.cable.cable import Cable
+from knotopt.supports.minimal import find_backend
+from knotopt.supports.requirements import Formulation
+from knotopt.supports.threading import Threading
+from knotopt.verify.opening import check_opening
+from knotopt.verify.regions import DefinedRegion, define_regions
+from knotopt.verify.span import check_span
+
+REFUSED = "refused"
+PACKAGES = {
+    "cp-sat": ("ortools",),
+    "highs": ("highspy", "cvxpy"),
+    "scip": ("pyscipopt", "cvxpy"),
+    "maxsat": ("python-sat",),
+    "exhaustive": (),
+}
+"""What the answers of each solver depend on, besides numpy."""
+
+
+def compare_solvers(
+    knot: KnotRow,
+    cable: Cable,
+    programs: Mapping[Formulation, Solved],
+    settings: Settings,
+    *,
+    checked: bool,
+) -> tuple[list[SolverRow], list[SolverTimesRow]]:
+    """Solve each program by each solver of the settings.
+
+    Parameters
+    ----------
+    knot : KnotRow
+    cable : Cable
+        On one cut.
+    programs : mapping of Formulation to Solved
+        `opening` in mode turning-point, `span` in mode over-under.
+    settings : Settings
+    checked : bool
+        Whether the independent checkers look at the sets too.
+
+    Raises
+    ------
+    SolverError, MissingExtraError
+        A solver that does not exist, or is not installed.
+    KeyboardInterrupt
+        Ctrl-C, also where a solver caught it.
+    """
+    regions = list(define_regions(cable.path, cable.diagram.size)) if checked else None
+    rows, times = [], []
+    for formulation, program in programs.items():
+        for solver in settings.solvers:
+            warm(solver)
+            began = time.perf_counter()
+            status, solution = _ask(solver, program.instance, settings)
+            seconds = time.perf_counter() - began
+            place = (knot.number, knot.knot, str(cable.cut), str(formulation), solver)
+            chosen = solution.chosen
+            satisfies = None if status != Status.ERROR else False
+            meets = None
+            if chosen is not None:
+                satisfies = not program.instance.violated(program.instance.complete(chosen))
+                if regions is not None:
+                    meets = _is_open(cable, formulation, chosen[1:-1], settings, regions)
+            rows.append(
+                SolverRow(
+                    *place,
+                    status=status,
+                    said=solution.raw_status,
+                    objective=solution.objective,
+                    bound=solution.bound,
+                    proven=status in (Status.OPTIMAL, Status.INFEASIBLE),
+                    rows=len(program.instance.rows),
+                    satisfies=satisfies,
+                    meets_definition=meets,
+                )
+            )
+            times.append(SolverTimesRow(*place, seconds, solution.solve_seconds))
+    return rows, times
+
+
+@cache
+def warm(solver: str) -> None:
+    """Import a solver and solve something with it, once a process: that is no program's time."""
+    tiny = Instance("tiny", ("a", "b"), 2, (1, 1), (Row((1, 2), 1, "cover", "ab"),))
+    find_backend(solver).solve(tiny, Limits())
+
+
+def _ask(solver: str, instance: Instance, settings: Settings) -> tuple[str, Solution]:
+    """What the solver says; `REFUSED` where the program is none for it, with the reason."""
+    limits = Limits(seconds=settings.solver_limit, seed=settings.seed)
+    try:
+        solution = find_backend(solver).solve(instance, limits)
+    except BackendError as error:
+        return REFUSED, Solution(Status.UNKNOWN, str(error))
+    if solution.interrupted:
+        raise KeyboardInterrupt
+    return str(solution.status), solution
+
+
+def _is_open(
+    cable: Cable,
+    formulation: Formulation,
+    supports: tuple[int, ...],
+    settings: Settings,
+    regions: list[DefinedRegion],
+) -> bool:
+    size, r = cable.diagram.size, settings.r
+    if formulation is Formulation.SPAN:
+        mode = Threading.OVER_UNDER
+        return check_span(cable.path, size, supports, r, mode, regions).is_open
+    mode = Threading.TURNING_POINT
+    return check_opening(cable.path, size, supports, r, mode, regions).is_open
