@@ -1,1 +1,1 @@
-"""Benchmarks of knotopt: `python -m benchmarks run`, then `python -m benchmarks.plot`."""
+"""Benchmarks of knotopt: `python -m benchmarks run`, then `python -m benchmarks plot`."""

@@ -10,6 +10,7 @@ import importlib.metadata
 import json
 import os
 import platform
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -36,9 +37,11 @@ from benchmarks import (  # noqa: F401 -- they register themselves
 )
 from benchmarks.compare import compare
 from benchmarks.registry import BENCHMARKS, Benchmark, Case
+from knotopt.errors import KnotoptError
 from knotopt.files import resumable_lines
 
 RESULTS = Path(__file__).parent / "results"
+CPUINFO = Path("/proc/cpuinfo")  # of Linux, where Python does not know the processor's model
 app = typer.Typer(help=__doc__, no_args_is_help=True, pretty_exceptions_enable=False)
 
 
@@ -89,6 +92,28 @@ def compare_revisions(
         print(f"{name} is not among the benchmarks of {revision}")
     for name, case in found.changed:
         print(f"other results than at {revision}: {name}, {json.dumps(case)}")
+
+
+@app.command()
+def plot() -> None:
+    """Write pages, figures and the table of versions from the results, beside them."""
+    from benchmarks.plot import main
+
+    main()
+
+
+@app.command()
+def record() -> None:
+    """Keep this version's headline figures; its earlier ones are replaced."""
+    from benchmarks import headlines
+
+    try:
+        kept, left_out = headlines.record()
+    except KnotoptError as error:
+        raise typer.BadParameter(str(error)) from error
+    for benchmark, why in left_out.items():
+        print(f"left out: {benchmark}, {why}")
+    print(f"kept: {len(kept.figures)} figures of version {kept.version}")
 
 
 def _named(names: list[str] | None) -> list[Benchmark]:
@@ -147,12 +172,24 @@ def machine_facts() -> dict[str, Any]:
         "shapely",
         "mujoco",
     )
+    processor = _processor()
     return {
         "python": platform.python_version(),
         "system": f"{platform.system()} {platform.machine()}",
+        **({"processor": processor} if processor else {}),
         "cores": os.cpu_count(),
         **{package: importlib.metadata.version(package) for package in packages},
     }
+
+
+def _processor() -> str:
+    """Model of the processor; "" where the system does not say."""
+    with suppress(OSError):
+        for line in CPUINFO.read_text(encoding="utf-8").splitlines():
+            key, _, value = line.partition(":")
+            if key.strip() == "model name":
+                return value.strip()
+    return platform.processor()
 
 
 if __name__ == "__main__":

@@ -5,9 +5,9 @@ from __future__ import annotations
 import time
 
 from benchmarks.registry import Benchmark, Case, Result, each_knot, register
-from benchmarks.warm import warm_up
 from formulations.backends import get_backend
 from formulations.solution import Limits
+from knotopt.atlas.solvers import warm
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import crossing_free_cuts
 from knotopt.catalogue.knots import shipped_knots
@@ -24,7 +24,7 @@ def measure(case: Case) -> Result:
 
     The time of a formulation is that to compile, build and solve, without LCF.
     """
-    warm_up("cp-sat")
+    warm("cp-sat")
     knot = shipped_knots()[case["knot"]]
     opening = Requirements(Formulation.OPENING)
     cp_sat = get_backend("cp-sat")

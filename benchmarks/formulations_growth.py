@@ -7,9 +7,9 @@ from collections.abc import Iterable
 
 from benchmarks.lcf_growth import diagram_of
 from benchmarks.registry import Benchmark, Case, Result, register
-from benchmarks.warm import warm_up
 from formulations.backends import get_backend
 from formulations.solution import Limits
+from knotopt.atlas.solvers import warm
 from knotopt.cable.cable import Cable
 from knotopt.supports.lcf import lcf
 from knotopt.supports.minimal import compile_program
@@ -33,7 +33,7 @@ def cases(smoke: bool) -> Iterable[Case]:
 
 def measure(case: Case) -> Result:
     """Times [s] to compile and to solve (CP-SAT, one thread), and what came out."""
-    warm_up("cp-sat")
+    warm("cp-sat")
     asked = Requirements(case["formulation"])
     seeded = lcf(Cable(diagram_of(case), "L+"))
     began = time.perf_counter()

@@ -1,9 +1,10 @@
-"""`python -m benchmarks.plot`: figures and a summary from the results in `benchmarks/results`."""
+"""`python -m benchmarks plot`: figures and a summary from the results in `benchmarks/results`."""
 
 from __future__ import annotations
 
 import json
 from collections import defaultdict
+from collections.abc import Callable
 from pathlib import Path
 from statistics import mean, median
 from typing import Any
@@ -113,12 +114,13 @@ def robots_figure(rows: list[dict[str, Any]]) -> Figure:
     axes = figure.subplots()
     numbers = sorted({row["crossing_number"] for row in rows})
     groups = [[row for row in rows if row["crossing_number"] == c] for c in numbers]
-    for label, marker, colour, pick in (
+    series: tuple[tuple[str, str, str, Callable[[dict[str, Any]], list[int]]], ...] = (
         ("baseline 2N", "s", "#666666", lambda row: [row["robots_before"]]),
         ("LCF, all cuts", "o", "#0072B2", lambda row: list(row["robots"].values())),
         ("LCF layered, all cuts", "D", "#009E73", lambda row: list(row["robots_layered"].values())),
         ("LCF, best cut", "^", "#D55E00", lambda row: [min(row["robots"].values())]),
-    ):
+    )
+    for label, marker, colour, pick in series:
         means = [mean(value for row in group for value in pick(row)) for group in groups]
         axes.plot(numbers, means, marker=marker, color=colour, markersize=5, label=label)
     axes.set(xlabel="crossing number", ylabel="mean number of robots", ylim=(0, None))
@@ -129,7 +131,13 @@ def robots_figure(rows: list[dict[str, Any]]) -> Figure:
 
 def main() -> None:
     """Write summary.md (LCF), the other pages and the figures beside the results."""
-    from benchmarks import plot_formulations, plot_paths, plot_physics, plot_topology
+    from benchmarks import (
+        headlines,
+        plot_formulations,
+        plot_paths,
+        plot_physics,
+        plot_topology,
+    )
 
     _, startup = load("startup")
     header, catalogue = load("lcf_catalogue")
@@ -161,6 +169,8 @@ def main() -> None:
         "physics.md": plot_physics,
         "topology.md": plot_topology,
     }
+    if (RESULTS / headlines.FILE).exists():
+        pages["versions.md"] = headlines
     for page, source in pages.items():
         parts, figures = source.write_parts()
         write_atomically(RESULTS / page, "\n\n".join(parts) + "\n")
@@ -174,7 +184,3 @@ def _by_size(rows: list[dict[str, Any]], family: str, key: str) -> dict[int, lis
         if row["family"] == family:
             found[row["size"]].append(row[key])
     return dict(found)
-
-
-if __name__ == "__main__":
-    main()

@@ -8,9 +8,9 @@ from itertools import islice
 from typing import Any
 
 from benchmarks.registry import Benchmark, Case, Result, register
-from benchmarks.warm import warm_up
 from formulations.backends import BACKENDS, get_backend
 from formulations.solution import Limits, Status
+from knotopt.atlas.solvers import warm
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import crossing_free_cuts
 from knotopt.catalogue.knots import shipped_knots
@@ -34,7 +34,7 @@ def cases(smoke: bool) -> Iterable[Case]:
 def measure(case: Case) -> Result:
     """For each cut and solver: status, objective, bound and time [s], build and solve."""
     for name in BACKENDS:
-        warm_up(name)
+        warm(name)
     knot = shipped_knots()[case["knot"]]
     asked = Requirements(case["formulation"])
     cuts = crossing_free_cuts(knot.diagram)

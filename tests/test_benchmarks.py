@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import platform
 import subprocess
 from pathlib import Path
 from typing import Any
@@ -11,10 +12,10 @@ import pytest
 from typer.testing import CliRunner
 
 from benchmarks import __main__ as harness
-from benchmarks import plot
+from benchmarks import headlines, plot
 from benchmarks.compare import ROOT, compare, fastest
 from benchmarks.registry import BENCHMARKS, Benchmark, register
-from knotopt.errors import OutputError
+from knotopt.errors import FileFormatError, OutputError
 
 
 def records(path: Path) -> list[dict[str, Any]]:
@@ -32,9 +33,82 @@ def test_every_benchmark_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
     assert all(name in listed for name in BENCHMARKS)
     monkeypatch.setattr(plot, "RESULTS", tmp_path)
     monkeypatch.setattr(plot, "FIT_FROM", 0)
-    plot.main()
+    drawn = CliRunner().invoke(harness.app, ["plot"])
+    assert drawn.exit_code == 0, drawn.output
     assert "At N = " in (tmp_path / "summary.md").read_text()
     assert (tmp_path / "growth.png").stat().st_size > 10_000
+
+    kept = CliRunner().invoke(harness.app, ["record"])  # of smoke runs there is nothing to keep
+    assert kept.exit_code == 2 and "no results of version" in kept.output
+    assert not (tmp_path / headlines.FILE).exists()
+
+
+def test_the_processor_is_named_where_it_is_known(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(platform, "processor", lambda: "")
+    monkeypatch.setattr(harness, "CPUINFO", tmp_path / "cpuinfo")
+    assert "processor" not in harness.machine_facts()
+    harness.CPUINFO.write_text("processor\t: 0\nmodel name\t: Abacus: 9 rows\nflags\t: \n")
+    assert harness.machine_facts()["processor"] == "Abacus: 9 rows"
+
+
+def results_of(version: str, folder: Path) -> None:
+    """The results as they are kept, as if measured with that version."""
+    for benchmark in {headline.benchmark for headline in headlines.HEADLINES}:
+        header, rest = (
+            (plot.RESULTS / f"{benchmark}.jsonl").read_text("utf-8").split("\n", maxsplit=1)
+        )
+        facts = json.loads(header)
+        facts["machine"]["knotopt"] = version
+        (folder / f"{benchmark}.jsonl").write_text(f"{json.dumps(facts)}\n{rest}", "utf-8")
+
+
+def test_the_figures_of_each_version_are_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    version = harness.machine_facts()["knotopt"]
+    results_of(version, tmp_path)
+    monkeypatch.setattr(plot, "RESULTS", tmp_path)
+    older = {"version": "0.0.1", "figures": [["old", "time [s]", 12.5, 3]], "machines": {}}
+    versions = tmp_path / headlines.FILE
+    versions.write_text(json.dumps(older) + "\n" + json.dumps({**older, "version": version}) + "\n")
+    kept, left_out = headlines.record()
+    assert left_out == {} and len(kept.figures) == len(headlines.HEADLINES)
+    first, second = records(versions)
+    assert first == older and second["version"] == version
+    assert {name: count for _, name, _, count in kept.figures}["`opening`, a cut [ms, median]"] > 9
+    once = versions.read_bytes()
+    for name in ("physics", "paths"):
+        (tmp_path / f"{name}.jsonl").unlink()
+    results_of_another = (tmp_path / "solvers.jsonl").read_text().replace(f'"{version}"', '"0.0.1"')
+    (tmp_path / "solvers.jsonl").write_text(results_of_another)
+    told = CliRunner().invoke(harness.app, ["record"])
+    assert told.exit_code == 0, told.output
+    assert "left out: paths, no results" in told.output
+    assert "left out: solvers, of 0.0.1" in told.output
+    assert versions.read_bytes() != once and len(records(versions)) == 2
+    page = "\n".join(headlines.write_parts()[0])
+    assert f"| benchmark | figure | 0.0.1 | {version} |" in page
+    assert "| old | time [s] | 12.5 (3) | - |" in page
+    assert "| CP-SAT" not in page and f"- {version}, `startup`" in page
+
+
+def test_damaged_results_are_not_recorded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    results_of(harness.machine_facts()["knotopt"], tmp_path)
+    monkeypatch.setattr(plot, "RESULTS", tmp_path)
+    versions = tmp_path / headlines.FILE
+    for name, text, why in (
+        (headlines.FILE, '{"version": "0.0.1", "figures": [["a", "b", 1]]}\n', "line 1 is damaged"),
+        (headlines.FILE, "<<<<<<<\n", "line 1 is damaged"),
+        ("startup.jsonl", "{torn", "startup.jsonl is damaged"),
+    ):
+        versions.unlink(missing_ok=True)
+        (tmp_path / name).write_text(text)
+        with pytest.raises(FileFormatError, match=why):
+            headlines.record()
+        assert (tmp_path / name).read_text() == text
+    assert not versions.exists()
 
 
 def test_an_unknown_benchmark_is_refused(tmp_path: Path) -> None:

@@ -9,7 +9,6 @@ import shlex
 import shutil
 import subprocess
 import sys
-import time
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -22,9 +21,9 @@ import knotopt
 ROOT = Path(__file__).parents[1]
 PAGES = sorted((ROOT / "docs").rglob("*.md"))
 NOTEBOOKS = sorted((ROOT / "examples").glob("*.ipynb"))
+SHOWN = {"atlas": 1, "trefoil": 4}  # pictures in each notebook
 TITLED = re.compile(r'^```(\w+) title="([^"]+)"\n(.*?)^```$', re.DOTALL | re.MULTILINE)
 BROWSER = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
-LIMIT = 120  # for a build, on a slow machine that does something else, too [s]
 
 
 def name(page: Path) -> str:
@@ -140,7 +139,6 @@ class _Loaded(HTMLParser):
 @pytest.mark.slow
 def test_the_site(tmp_path: Path) -> None:
     """Built once, with every warning an error; then looked at from disk, without a network."""
-    began = time.monotonic()
     done = subprocess.run(
         [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(tmp_path)],
         cwd=ROOT,
@@ -149,7 +147,6 @@ def test_the_site(tmp_path: Path) -> None:
         check=False,
     )
     assert done.returncode == 0, done.stdout + done.stderr
-    assert time.monotonic() - began < LIMIT
     built = {page.relative_to(tmp_path).with_suffix("").as_posix() for page in _html(tmp_path)}
     assert built >= {*map(name, PAGES), "reference/public"}
     text = (tmp_path / "reference/public.html").read_text("utf-8")
@@ -214,8 +211,11 @@ def test_notebooks_run(notebook: Path, tmp_path: Path) -> None:
 
     content = nbformat.read(notebook, as_version=4)
     assert not any(cell.get("outputs") or cell.get("execution_count") for cell in content.cells)
+    here = tmp_path / "examples"
+    here.mkdir()
+    shutil.copytree(ROOT / "paper_results/atlas", tmp_path / "paper_results/atlas")
     nbclient.NotebookClient(
-        content, timeout=60, resources={"metadata": {"path": str(tmp_path)}}
+        content, timeout=60, resources={"metadata": {"path": str(here)}}
     ).execute()
     pictures = [
         output
@@ -223,4 +223,5 @@ def test_notebooks_run(notebook: Path, tmp_path: Path) -> None:
         for output in cell.get("outputs", [])
         if "image/png" in output.get("data", {})
     ]
-    assert len(pictures) >= 4
+    assert len(pictures) == SHOWN[notebook.stem]
+    assert not list(here.iterdir())
