@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -11,6 +12,7 @@ pytest.importorskip("mujoco")
 
 from knotopt import Cable, shipped_knots
 from knotopt.errors import RequirementError
+from knotopt.flight import rehearsal
 from knotopt.flight.examine import examine_plan
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.observed import Observer
@@ -32,15 +34,21 @@ def measured(plan: FlightPlan) -> LimitsReport:
 
 
 @cache
-def rehearsed() -> tuple[FlightPlan, tuple[str, ...], bool]:
-    """LCF's set for the trefoil, flown span by span; plan, crossings failed, whether stuck."""
+def flown() -> RehearsedFlight:
+    """LCF's set for the trefoil, flown span by span."""
     chosen = choose_supports(shipped_knots()["3_1"].diagram, "lcf")
     planner = FlightPlanner(chosen.cable, chosen.supports, ROOM, FlightLimits())
     planner.plan_routes(SHAPES[0])
     crosses = np.array([len(word) > 0 for word in planner.words])
     run = RehearsedFlight(planner, np.where(crosses, 1.1, 1.0), SHAPES, lambda _: None)
-    for span in range(1, planner.robots):
-        run.fly_span(span)
+    assert run.fly() is None
+    return run
+
+
+@cache
+def rehearsed() -> tuple[FlightPlan, tuple[str, ...], bool]:
+    """Its plan, crossings failed, whether robots got stuck."""
+    run = flown()
     return run.rehearsed("3_1", "lcf"), tuple(run.failed), run.stuck
 
 
@@ -63,6 +71,35 @@ def test_a_rehearsed_plan_keeps_its_limits() -> None:
     changes = np.linalg.norm(np.diff(plan.positions, n=2, axis=0), axis=2)
     assert steps.max() <= 1.01 * plan.limits.speed * plan.interval
     assert changes.max() <= 1.1 * plan.limits.acceleration * plan.interval**2
+
+
+def test_a_file_that_starts_farther_out_flies_the_same_route() -> None:
+    planner = flown().planner.copy()
+    before = planner.formation()
+    planner.start_farther(2.0)
+    after = planner.formation()
+    more = after.stops[0] - before.stops[0]
+    assert more == pytest.approx(2.0 * ROOM.step, abs=0.01)
+    assert (planner.robots - 1) * (after.spacing - before.spacing) == pytest.approx(more)
+    inner = before.nodes
+    leader = [each.positions(inner + shift)[:, -1] for each, shift in ((before, 0), (after, more))]
+    assert leader[1] == pytest.approx(leader[0], abs=1e-3)
+    assert np.diff(after.stops) == pytest.approx(np.diff(before.stops))
+    assert flown().planner.spacing == before.spacing  # a copy is changed by itself
+
+
+def test_robots_that_came_too_near_fly_the_route_in_a_longer_file() -> None:
+    run = flown()
+    planner = run.planner.copy()
+    planner.limits = replace(planner.limits, separation=0.31, spacing=0.31)  # more than it has
+    tight = planner.formation().separation
+    judge = rehearsal._Judge(lambda _: None)
+    plan = planner.plan("3_1", "lcf", "fixed", run.lengths)
+    judge.fly("as it is", plan, planner, plan.duration)
+    assert tight < 1 and judge.best is not None and judge.best.separation == tight
+    rehearsal._fly_from_farther(judge, planner, run.lengths, ("3_1", "lcf"), "fixed")
+    assert judge.best.is_tied and judge.best.separation >= 1
+    assert measured(judge.best.plan).separation.value >= 0.99
 
 
 def assert_leader_is_at_its_crossings(plan: FlightPlan, near: float) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import replace
 
 import numpy as np
@@ -15,7 +16,7 @@ from knotopt.flight.formation import Formation
 from knotopt.flight.laid import Laid, hanging_cable
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan, PlannedCrossing
-from knotopt.flight.route import Passage, SpanRoute, SpanShape, build_route
+from knotopt.flight.route import SAMPLE, Passage, SpanRoute, SpanShape, build_route
 from knotopt.flight.router import Crossed, Router, RouteShape, Way
 from knotopt.flight.word import span_words
 from knotopt.path.mesh import robot_times
@@ -212,6 +213,27 @@ class FlightPlanner:
             if formation.separation >= APART:
                 break
         return formation
+
+    def start_farther(self, distance: float) -> None:
+        """Start the file farther outside, with more spacing; what is frozen of the route stays.
+
+        Parameters
+        ----------
+        distance : float
+            About [grid steps]: the route's points remain even.
+        """
+        count = round(distance / SAMPLE)
+        out = self.tail[1] - self.tail[0]
+        away = SAMPLE * np.arange(count, 0, -1)[:, None] * out / np.linalg.norm(out)
+        start = np.column_stack((self.frozen[0, :2] + away, np.zeros(count)))
+        self.frozen = np.concatenate((start, self.frozen))
+        self.spacing += count * SAMPLE * self.world.step / (self.robots - 1)
+
+    def copy(self) -> FlightPlanner:
+        """A planner that has the same routes and can be changed by itself."""
+        other = copy(self)
+        other.spans, other.lengths = list(self.spans), list(self.lengths)
+        return other
 
     def cable_lengths(self, formation: Formation) -> FloatArray:
         """Of the cable between robots, enough for the whole flight, shape (R - 1,) [m]."""

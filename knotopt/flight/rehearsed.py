@@ -132,6 +132,14 @@ class RehearsedFlight:
             0,
         )
 
+    def fly(self) -> int | None:
+        """Fly all spans; return the one where robots got stuck (1-based), if there is one."""
+        for span in range(1, self.planner.robots):
+            self.fly_span(span)
+            if self.stuck:
+                return span
+        return None
+
     def fly_span(self, span: int) -> None:
         """Fly the leader from its stop at robot `span`'s place to the next one."""
         word = self.planner.words[span - 1]
