@@ -24,6 +24,7 @@ from mkdocs.structure.files import File, Files
 ROOT = Path(__file__).resolve().parents[1]
 PICTURES = {"figures": ROOT / "paper_results/figures", "results": ROOT / "benchmarks/results"}
 SUBJECTS = {
+    "api": "From a knot to its supports and its flight",
     "diagram": "Grid diagrams",
     "catalogue": "Catalogue",
     "cable": "Cables",

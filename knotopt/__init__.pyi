@@ -1,3 +1,5 @@
+from .api import plan as plan
+from .api import solve as solve
 from .cable.alexander import alexander_polynomial as alexander_polynomial
 from .cable.alexander import determinant as determinant
 from .cable.cable import Cable as Cable

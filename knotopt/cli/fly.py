@@ -34,7 +34,6 @@ if TYPE_CHECKING:
 
 RUNS = 5
 NOISE = 0.01  # [m]
-OPENNESS = 0.25  # of the smallest set unless another is asked for [grid steps]
 
 
 def fly(
@@ -118,6 +117,7 @@ def fly(
 
     Example: knotopt fly 3 --sim --out trefoil
     """
+    from knotopt.api import FLOWN
     from knotopt.catalogue.lookup import find_knot
     from knotopt.files import check_folder
     from knotopt.flight.folder import why_kept
@@ -133,7 +133,9 @@ def fly(
         raise typer.BadParameter(
             "goes with --supports milp", param_hint="--formulation" if r is None else "--r"
         )
-    requirements = Requirements(formulation or "span", OPENNESS if r is None else r)
+    requirements = Requirements(
+        formulation or FLOWN.formulation, FLOWN.openness if r is None else r
+    )
     world = World(step, altitude, floor, ceiling, ROOM.drone_height, ROOM.downwash)
     limits = FlightLimits(
         speed, acceleration, separation, downwash, spacing, slack, hover_before, hover_after

@@ -1,0 +1,137 @@
+"""The two questions that most users have, one call each: which supports, and which flight."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from formulations.backends import DEFAULT
+from formulations.solution import Limits
+from knotopt.cable.cable import Cable
+from knotopt.cable.cut import Cut
+from knotopt.catalogue.lookup import NamedDiagram, find_knot
+from knotopt.diagram.grid import GridDiagram
+from knotopt.errors import RequirementError
+from knotopt.flight.limits import ROOM, FlightLimits
+from knotopt.flight.plan import FlightPlan
+from knotopt.flight.planner import plan_flight
+from knotopt.flight.rehearsal import rehearse_flight
+from knotopt.path.world import World
+from knotopt.supports.choice import choose_supports
+from knotopt.supports.minimal import MinimalSupports, minimal_supports
+from knotopt.supports.requirements import Requirements
+from knotopt.supports.search import best_supports
+from knotopt.supports.support_set import SupportSet
+
+FLOWN = Requirements("span", 0.25)
+"""What a smallest set is asked for if it is to be flown, unless something else is."""
+
+
+def solve(
+    knot: str | GridDiagram,
+    requirements: Requirements | None = None,
+    *,
+    cut: str = "best",
+    solver: str = DEFAULT,
+    limits: Limits | None = None,
+) -> MinimalSupports:
+    """The smallest set of supports of a knot, as `knotopt solve` finds it.
+
+    Parameters
+    ----------
+    knot : str or GridDiagram
+        A name, a row of Table I, T(p,q), or a file, as `find_knot` reads them.
+    requirements : Requirements, optional
+        By default formulation `opening` with an openness of half a grid step.
+    cut : str
+        "best" of the crossing-free cuts, or a cut's name.
+    solver : str
+        A name of `formulations.backends.BACKENDS`.
+    limits : Limits, optional
+        Of time and gap.
+
+    Returns
+    -------
+    MinimalSupports
+        On the best cut; `is_proven` is about this cut alone. `found` is false where no set meets
+        the requirements. `best_supports` says what is known of every cut.
+
+    Raises
+    ------
+    KnotoptError
+        No such knot, cut or solver, or requirements without meaning.
+
+    Examples
+    --------
+    >>> found = solve("9")
+    >>> found.robots, str(found.cable.cut), found.supports, found.report.is_open
+    (5, 'L+', (9, 10, 11), True)
+    >>> solve("9", Requirements("span", 0.25), cut="L-").robots
+    11
+    """
+    diagram = _named(knot).diagram
+    if cut == "best":
+        return best_supports(diagram, requirements, solver=solver, limits=limits).best
+    cable = Cable(diagram, Cut.parse(cut, diagram.size))
+    return minimal_supports(cable, requirements, solver=solver, limits=limits)
+
+
+def plan(
+    knot: str | GridDiagram,
+    supports: str | SupportSet = "milp",
+    *,
+    cut: str = "best",
+    requirements: Requirements | None = None,
+    world: World = ROOM,
+    limits: FlightLimits | None = None,
+    schedule: str = "optimised",
+    physics: bool = False,
+) -> FlightPlan:
+    """A flight that ties a knot, as `knotopt fly` plans it.
+
+    Parameters
+    ----------
+    knot : str or GridDiagram
+        As for `solve`.
+    supports : str or SupportSet
+        "milp" (the smallest set), "lcf", "all", a `.json` file with a set, or a result such as
+        that of `solve` or `lcf`, whose cut then counts.
+    cut : str
+        "best" or a cut's name.
+    requirements : Requirements, optional
+        Of the smallest set; by default `span` with an openness of a quarter of a grid step.
+    world : World
+        Metres, heights.
+    limits : FlightLimits, optional
+        Of the robots, the file and the cable.
+    schedule : str
+        "optimised", or "fixed": one pace throughout, as in the paper.
+    physics : bool
+        Whether the flight is rehearsed in simulation (extra `sim`); else laid cable is modelled.
+
+    Raises
+    ------
+    KnotoptError
+        No such knot or cut, supports without a flight, or limits that no flight keeps.
+
+    Examples
+    --------
+    >>> flight = plan("3", "lcf", schedule="fixed")
+    >>> flight.name, flight.positions.shape[1:], [each.name for each in flight.crossings]
+    ('3_1', (5, 3), ['span 4 over span 1', 'span 4 under span 1', 'span 4 over span 2'])
+    """
+    named = _named(knot)
+    if isinstance(supports, SupportSet):
+        chosen, how = supports, "given"
+        if chosen.cable.diagram != named.diagram:
+            raise RequirementError("the supports are of another diagram than the knot's")
+        if isinstance(chosen, MinimalSupports) and not chosen.found:
+            raise RequirementError("there is no set of supports to fly: none was found")
+    else:
+        chosen = choose_supports(named.diagram, supports, cut, requirements or FLOWN)
+        how = Path(supports).name
+    asked = (named.name, chosen.cable, chosen.supports, how, world, limits, schedule)
+    return rehearse_flight(*asked).plan if physics else plan_flight(*asked)
+
+
+def _named(knot: str | GridDiagram) -> NamedDiagram:
+    return find_knot(knot) if isinstance(knot, str) else NamedDiagram("grid", knot, "given")
