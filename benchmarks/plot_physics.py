@@ -23,11 +23,10 @@ def flown_table(rows: Rows) -> str:
     for row in rows:
         method = row["method"] + (f", set {row['number'] + 1}" if row["number"] else "")
         if not row["planned"]:
-            if "robots" in row:
-                lines.append(
-                    f"| {row['row']} | {method} | {row['cut']} | {row['robots']} "
-                    f"| no plan: {row['why']} | | | | | |"
-                )
+            lines.append(
+                f"| {row['row']} | {method} | {row['cut']} | {row['robots']} "
+                f"| no plan: {row['why']} | | | | | |"
+            )
             continue
         lines.append(
             f"| {row['row']} | {method} | {row['cut']} | {row['robots']} "
@@ -43,8 +42,7 @@ def rates_table(rows: Rows) -> str:
     """Success rates by method with Wilson's intervals; a set without a plan counts as failed."""
     sets: dict[str, list[dict[str, Any]]] = defaultdict(list)
     for row in rows:
-        if row["planned"] or "robots" in row:
-            sets[row["method"]].append(row)
+        sets[row["method"]].append(row)
     lines = [
         "| method | sets | tied undisturbed | disturbed flights | tied | 95 % interval |",
         "|---|---|---|---|---|---|",

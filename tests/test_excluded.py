@@ -18,7 +18,7 @@ from formulations.instance import Instance
 from formulations.solution import Limits, Solution, Status
 from formulations.team import Team
 from knotopt.cable.cable import Cable
-from knotopt.cable.cut import outer_cuts
+from knotopt.cable.cut import crossing_free_cuts, outer_cuts
 from knotopt.catalogue.lookup import find_knot
 from knotopt.certificate import prove
 from knotopt.diagram.families import torus_knot
@@ -101,11 +101,27 @@ def test_all_smallest_sets_against_exhaustive_search() -> None:
             result = minimal_supports(cable, asked)
             solver = "exhaustive" if len(cable.path) <= 14 else "cp-sat"
             every = all_minimal(result, solver=solver)
-            found = optimal_sets(cable, asked)
-            assert found.complete and set(found.sets) == set(every.sets)
-            assert found.sets[0] == result.supports
-            one = optimal_sets(cable, asked, 1)
-            assert one.sets == found.sets[:1] and one.complete == (len(found.sets) == 1)
+            found = optimal_sets(cable.diagram, asked, cuts=[cable.cut])
+            sets = [each.supports for each in found.sets]
+            assert found.complete and set(sets) == set(every.sets)
+            assert sets[0] == result.supports
+            one = optimal_sets(cable.diagram, asked, 1, cuts=[cable.cut])
+            assert one.sets[0].supports == sets[0] and one.complete == (len(sets) == 1)
+
+
+def test_all_smallest_sets_of_all_cuts() -> None:
+    diagram = find_knot("9").diagram
+    asked = Requirements("span", 0.25)
+    found = optimal_sets(diagram, asked)
+    by_cut = {
+        str(cut): set(all_minimal(result).sets)
+        for cut in crossing_free_cuts(diagram)
+        if (result := minimal_supports(Cable(diagram, cut), asked)).robots == 5
+    }
+    assert found.complete and {each.robots for each in found.sets} == {5}
+    assert set(by_cut) == {"L+", "T+"}
+    for cut, sets in by_cut.items():
+        assert {each.supports for each in found.sets if str(each.cable.cut) == cut} == sets
 
 
 def test_smallest_sets_where_there_are_none_or_time_is_short(
@@ -113,16 +129,17 @@ def test_smallest_sets_where_there_are_none_or_time_is_short(
 ) -> None:
     cable = Cable(torus_knot(2, 3), "L+")
     impossible = Requirements(forbidden=tuple(range(2, 10)))
-    nothing = optimal_sets(cable, impossible)
+    alone = [cable.cut]
+    nothing = optimal_sets(cable.diagram, impossible, cuts=alone)
     assert nothing.sets == () and nothing.complete
     with pytest.raises(RequirementError, match="at least 1 set is asked for, not 0"):
-        optimal_sets(cable, limit=0)
+        optimal_sets(cable.diagram, limit=0)
     from formulations.backends.cp_sat import CpSat
 
     monkeypatch.setattr(CpSat, "solve", lambda *_: Solution(Status.UNKNOWN, "UNKNOWN"))
-    stopped = optimal_sets(cable, impossible)
+    stopped = optimal_sets(cable.diagram, impossible, cuts=alone)
     assert stopped.sets == () and not stopped.complete
-    not_proven = optimal_sets(cable)  # all turning points, which are at hand
+    not_proven = optimal_sets(cable.diagram, cuts=alone)  # all turning points, which are at hand
     assert not_proven.sets == () and not not_proven.complete
 
 

@@ -24,35 +24,36 @@ Supports = tuple[int, ...]
 
 @dataclass(frozen=True)
 class OptimalSets:
-    """The smallest sets of one cable, in canonical order, each without p_1 and p_n.
+    """The smallest sets of a diagram, by cut, those of a cut in canonical order.
 
     `complete` says that there are no others as small.
     """
 
-    sets: tuple[Supports, ...]
+    sets: tuple[MinimalSupports, ...]
     complete: bool
 
 
 def optimal_sets(
-    cable: Cable,
+    diagram: GridDiagram,
     requirements: Requirements | None = None,
     limit: int = 20,
     *,
+    cuts: Iterable[Cut] | None = None,
     solver: str = DEFAULT,
     limits: Limits | None = None,
 ) -> OptimalSets:
-    """All smallest sets of supports, or the first `limit` of them.
+    """All smallest sets of supports over the cuts of a diagram, or the first `limit` of them.
 
-    In contrast to `all_minimal` every solver will do, and of more sets than `limit` those with the
-    largest smallest opening are given.
+    In contrast to `all_minimal` every solver will do, and of more sets of a cut than `limit` those
+    with the largest smallest opening are given.
 
     Parameters
     ----------
-    cable : Cable
+    diagram : GridDiagram
     requirements : Requirements, optional
     limit : int
-    solver, limits
-        As for `minimal_supports`; the time limit is for each solve.
+    cuts, solver, limits
+        As for `sets_in_order`.
 
     Raises
     ------
@@ -62,28 +63,24 @@ def optimal_sets(
     Examples
     --------
     >>> from knotopt.catalogue.lookup import find_knot
-    >>> optimal_sets(Cable(find_knot("9").diagram, "L+"))
-    OptimalSets(sets=((9, 10, 11), (9, 10, 12), (9, 10, 13)), complete=True)
+    >>> found = optimal_sets(find_knot("9").diagram, cuts=[Cut.parse("L+", 11)])
+    >>> [each.supports for each in found.sets], found.complete
+    ([(9, 10, 11), (9, 10, 12), (9, 10, 13)], True)
     """
     if limit < 1:
         raise RequirementError(f"at least 1 set is asked for, not {limit}")
-    found: list[Supports] = []
-    fewest = len(cable.path)
-    ordered = sets_in_order(
-        cable.diagram, requirements, cuts=(cable.cut,), solver=solver, limits=limits
-    )
-    for search in ordered:
+    found: list[MinimalSupports] = []
+    for search in sets_in_order(diagram, requirements, cuts=cuts, solver=solver, limits=limits):
         best = search.best
         if not best.found:
             return OptimalSets(tuple(found), search.status is Status.INFEASIBLE)
         if not search.is_proven:
             break
-        fewest = min(fewest, best.robots)
-        if best.robots > fewest:
+        if found and best.robots > found[0].robots:
             return OptimalSets(tuple(found), complete=True)
         if len(found) == limit:
             break
-        found.append(best.supports)
+        found.append(best)
     return OptimalSets(tuple(found), complete=False)
 
 
