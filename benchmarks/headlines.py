@@ -18,7 +18,7 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from benchmarks import plot
-from benchmarks.physics import METHODS, SEEDS
+from benchmarks.physics import KNOT_METHODS, METHODS, OPTIMAL_METHOD, SEEDS
 from benchmarks.plot_paths import SMALL
 from knotopt.atlas.report.performance import shifted_geometric_mean
 from knotopt.errors import FileFormatError
@@ -177,6 +177,14 @@ HEADLINES = (
     *(
         Headline("physics", f"disturbed flights tied, {method} [%]", _flights(method), percent)
         for method in METHODS
+    ),
+    *(
+        Headline(name, f"disturbed flights tied, {method} [%]", _flights(method), percent)
+        for name, methods in (
+            ("physics_knots", KNOT_METHODS),
+            ("physics_optimal", [OPTIMAL_METHOD]),
+        )
+        for method in methods
     ),
     *(
         Headline(

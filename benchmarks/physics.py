@@ -44,6 +44,8 @@ METHODS: dict[str, tuple[str, Requirements | None]] = {
 RANDOM, SMALL = 2, 3  # random sets of as many supports as the smallest has, for the first rows
 OPTIMAL = 20  # sets of `span` at most, of all optimal ones
 CROSSINGS = 7  # of the knots flown on KnotInfo's grids
+KNOT_METHODS = ("span 0.25", "opening 0.5", "lcf", "all")  # flown there
+OPTIMAL_METHOD = "span 0.25"  # whose smallest sets are all flown
 
 
 def cases(smoke: bool) -> Iterable[Case]:
@@ -58,16 +60,16 @@ def knot_cases(smoke: bool) -> Iterable[Case]:
     """The canonical set of some methods for all knots with few crossings, on KnotInfo's grids."""
     knots = [knot for knot in shipped_knots().values() if knot.crossing_number <= CROSSINGS]
     for knot in knots[: 1 if smoke else None]:
-        for method in ("none",) if smoke else ("span 0.25", "opening 0.5", "lcf", "all"):
+        for method in ("none",) if smoke else KNOT_METHODS:
             yield {"row": knot.name, "method": method, "number": 0}
 
 
 def optimal_cases(smoke: bool) -> Iterable[Case]:
     """The sets of `span` as small as the canonical one, on every cut, beside it."""
     for row in _rows(smoke):
-        sets = len(_optimal_sets(row, "span 0.25"))
+        sets = len(_optimal_sets(row, OPTIMAL_METHOD))
         for number in range(1, min(sets, 2) if smoke else sets):
-            yield {"row": row, "method": "span 0.25", "number": number}
+            yield {"row": row, "method": OPTIMAL_METHOD, "number": number}
 
 
 @cache
