@@ -31,7 +31,8 @@ def flown_table(rows: Rows) -> str:
             continue
         lines.append(
             f"| {row['row']} | {method} | {row['cut']} | {row['robots']} "
-            f"| {row['undisturbed'].replace('|', '/')} | {row['tied_disturbed']} of {len(row['disturbed'])} "
+            f"| {row['undisturbed'].replace('|', '/')} "
+            f"| {row['tied_disturbed']} of {len(row['disturbed'])} "
             f"| {row['rehearsals'] or 'none'} | {row['flight_seconds']:.0f} "
             f"| {row['separation']:.2f} "
             f"| {row['first_amiss'].replace('|', '/')} |"
