@@ -66,7 +66,7 @@ def solve(
     >>> found.robots, str(found.cable.cut), found.supports, found.report.is_open
     (5, 'L+', (9, 10, 11), True)
     >>> solve("9", Requirements("span", 0.25), cut="L-").robots
-    11
+    10
     """
     diagram = _named(knot).diagram
     if cut == "best":
