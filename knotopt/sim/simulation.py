@@ -303,8 +303,7 @@ class Simulation:
 
     def _is_sound(self) -> bool:
         """Whether numbers are finite and no contact was left out; else strands may have passed."""
-        warned = any(warning.number for warning in self._data.warning)
-        if np.isfinite(self._data.qpos).all() and not warned:
+        if np.isfinite(self._data.qpos).all() and not self._data.warning.number.any():
             return True
         self._smallest_distance = 0.0
         return False
