@@ -147,6 +147,7 @@ def rehearse_flight(
 
     With a robot at every turning point modelled routes are tried first, in a wider file and with
     less slack than the limits'; the first that ties the knot, disturbed or not, is taken.
+    Where robots of the best rehearsal come too near each other, its route is flown in longer files.
 
     Parameters
     ----------
