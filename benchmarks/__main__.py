@@ -30,6 +30,7 @@ from benchmarks import (  # noqa: F401 -- they register themselves
     paths_tradeoff,
     physics,
     physics_subsets,
+    physics_tight,
     solvers,
     startup,
     topology,

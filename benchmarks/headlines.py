@@ -193,7 +193,7 @@ HEADLINES = (
             _open_by(name),
             percent,
         )
-        for name in ("opening", "span")
+        for name in ("opening 0.25", "span 0.25")
     ),
     Headline(
         "topology_growth",

@@ -52,7 +52,7 @@ def cases(smoke: bool) -> Iterable[Case]:
     """The canonical set of every method, and random sets, for the rows of Table I."""
     for method in ("none", "span 0.25") if smoke else METHODS:
         for number in range(RANDOM if method == "random" else 1):
-            for row in _rows(smoke)[: SMALL if method == "random" else None]:
+            for row in rows_of_table1(smoke)[: SMALL if method == "random" else None]:
                 yield {"row": row, "method": method, "number": number}
 
 
@@ -66,7 +66,7 @@ def knot_cases(smoke: bool) -> Iterable[Case]:
 
 def optimal_cases(smoke: bool) -> Iterable[Case]:
     """The sets of `span` as small as the canonical one, on every cut, beside it."""
-    for row in _rows(smoke):
+    for row in rows_of_table1(smoke):
         sets = len(_optimal_sets(row, OPTIMAL_METHOD))
         for number in range(1, min(sets, 2) if smoke else sets):
             yield {"row": row, "method": OPTIMAL_METHOD, "number": number}
@@ -78,7 +78,8 @@ def _optimal_sets(row: str, method: str) -> tuple[MinimalSupports, ...]:
     return optimal_sets(find_knot(row).diagram, METHODS[method][1], OPTIMAL).sets
 
 
-def _rows(smoke: bool) -> list[str]:
+def rows_of_table1(smoke: bool) -> list[str]:
+    """Its rows that name one grid each."""
     return [grid.row for grid in table1_grids() if grid.preferred][: 1 if smoke else None]
 
 

@@ -8,6 +8,7 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from benchmarks import plot
+from benchmarks.physics_subsets import LOST_AT
 from knotopt.sim.trials import wilson_interval
 
 Rows = list[dict[str, Any]]
@@ -63,14 +64,14 @@ def rates_table(rows: Rows) -> str:
 def confusion_table(rows: Rows) -> str:
     """What each model says of a subset beside what physics does with it."""
     lines = [
-        "| knot | model | open and tied | open, not tied | not open, tied | neither "
-        "| smallest open | smallest tied |",
-        "|---|---|---|---|---|---|---|---|",
+        "| knot | model, r | open and tied | open, not tied | not open, tied | neither "
+        "| tied, of the open | smallest open | smallest tied |",
+        "|---|---|---|---|---|---|---|---|---|",
     ]
     for knot in dict.fromkeys(row["knot"] for row in rows):
         of_knot = [row for row in rows if row["knot"] == knot]
         tied_sizes = [len(r["supports"]) for r in of_knot if r["tied"]]
-        for model in ("opening", "span"):
+        for model in of_knot[0]["models"]:
             counts: dict[tuple[bool, bool], int] = defaultdict(int)
             for row in of_knot:
                 counts[row["models"][model], row["tied"]] += 1
@@ -78,8 +79,60 @@ def confusion_table(rows: Rows) -> str:
             lines.append(
                 f"| {knot} | {model} | {counts[True, True]} | {counts[True, False]} "
                 f"| {counts[False, True]} | {counts[False, False]} "
+                f"| {_share(counts[True, True], len(open_sizes))} "
                 f"| {_least(open_sizes)} | {_least(tied_sizes)} |"
             )
+    return "\n".join(lines)
+
+
+def lost_table(rows: Rows) -> str:
+    """How often sets tie by the number of regions that `span` loses, and pairs of sets."""
+    lines = ["| knot | regions lost | sets | tied | 95 % interval |", "|---|---|---|---|---|"]
+    pairs = []
+    for knot in dict.fromkeys(row["knot"] for row in rows):
+        tied = {frozenset(row["supports"]): row["tied"] for row in rows if row["knot"] == knot}
+        by_lost: dict[int, list[bool]] = defaultdict(list)
+        for row in rows:
+            if row["knot"] == knot:
+                by_lost[row["regions_lost"]].append(row["tied"])
+        for lost, found in sorted(by_lost.items()):
+            low, high = wilson_interval(sum(found), len(found))
+            lines.append(
+                f"| {knot} | {lost} | {len(found)} | {sum(found)} | {low:.2f} to {high:.2f} |"
+            )
+        more = [(tied[few], tied[few | {one}]) for few in tied for one in max(tied, key=len) - few]
+        pairs.append(
+            f"{knot}: of {len(more)} ways to add a support {more.count((False, True))} tie a set "
+            f"that did not tie, {more.count((True, False))} untie one that did."
+        )
+    return "\n".join([*lines, "", *pairs])
+
+
+def tight_table(rows: Rows, loose: Rows) -> str:
+    """One line a set that was pulled tight; `loose` are flights without."""
+    before = {(row["row"], row["method"]): row["tied_disturbed"] for row in loose if row["planned"]}
+    lines = [
+        "| row | method | cut | robots | ends apart, laid and pulled [m] "
+        "| supports within, laid and pulled [m] | pulled for [s] | undisturbed "
+        "| disturbed, tied | without the pull | tension [N] | robots apart | why it ends |",
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|",
+    ]
+    for row in rows:
+        start = f"| {row['row']} | {row['method']} | {row['cut']} | {row['robots']} "
+        if not row["planned"]:
+            lines.append(f"{start}| no plan: {row['why']} | | | | | | | | |")
+            continue
+        ends, within = (
+            " to ".join(f"{each:.2f}" for each in row[key])
+            for key in ("ends_apart", "supports_within")
+        )
+        lines.append(
+            f"{start}| {ends} | {within} | {row['tightening']:.0f} | {row['undisturbed']} "
+            f"| {row['tied_disturbed']} of {len(row['disturbed'])} "
+            f"| {before.get((row['row'], row['method']), '')} "
+            f"| {row['largest_tension']:.2f} | {row['separation']:.2f} "
+            f"| {row['why'].rpartition(': ')[2]} |"
+        )
     return "\n".join(lines)
 
 
@@ -140,12 +193,32 @@ def write_parts() -> tuple[list[str], dict[str, Figure]]:
     if (plot.RESULTS / "physics_subsets.jsonl").exists():
         _, subsets = plot.load("physics_subsets")
         parts += [
-            "## Subsets of supports on modelled routes, against the models (r = 0.25)",
+            "## Subsets of supports on modelled routes, against the models",
             confusion_table(subsets),
-            "All subsets of 3_1's turning points and those of at most four of 4_1's; one "
-            "undisturbed flight each.",
+            "All subsets of the turning points, 256 of 3_1 and 1,024 of 4_1; one undisturbed "
+            "flight each, a set without a plan counts as not tied "
+            f"({sum(row['verdict'].startswith('no plan') for row in subsets)} of them); r = any: "
+            "regions are there at all; in brackets Wilson's 95 % intervals.",
+            f"By the regions that `span` loses at r = {LOST_AT}:",
+            lost_table(subsets),
+        ]
+    if (plot.RESULTS / "physics_tight.jsonl").exists():
+        _, tight = plot.load("physics_tight")
+        parts += [
+            "## Pulled tight after the flight",
+            "The ends fly apart along the outside, 30 m at most, which is more than any of these "
+            "cables is long; the supports give way. Five disturbed flights of each plan, the "
+            "laying of the knot included.",
+            tight_table(tight, rows),
         ]
     return parts, {}
+
+
+def _share(tied: int, sets: int) -> str:
+    if not sets:
+        return "none is open"
+    low, high = wilson_interval(tied, sets)
+    return f"{tied / sets:.0%} ({low:.0%} to {high:.0%})"
 
 
 def _least(sizes: list[int]) -> str:

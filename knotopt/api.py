@@ -15,6 +15,7 @@ from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.planner import plan_flight
 from knotopt.flight.rehearsal import rehearse_flight
+from knotopt.flight.tighten import check_tightening, tighten_flight
 from knotopt.path.world import World
 from knotopt.supports.choice import choose_supports
 from knotopt.supports.minimal import MinimalSupports, minimal_supports
@@ -85,6 +86,7 @@ def plan(
     limits: FlightLimits | None = None,
     schedule: str = "optimised",
     physics: bool = False,
+    tighten: float | None = None,
 ) -> FlightPlan:
     """A flight that ties a knot, as `knotopt fly` plans it.
 
@@ -107,6 +109,8 @@ def plan(
         "optimised", or "fixed": one pace throughout, as in the paper.
     physics : bool
         Whether the flight is rehearsed in simulation (extra `sim`); else laid cable is modelled.
+    tighten : float, optional
+        Pull the knot tight after it, in simulation: how far apart the ends get at most [m].
 
     Raises
     ------
@@ -130,7 +134,14 @@ def plan(
         chosen = choose_supports(named.diagram, supports, cut, requirements or FLOWN)
         how = Path(supports).name
     asked = (named.name, chosen.cable, chosen.supports, how, world, limits, schedule)
-    return rehearse_flight(*asked).plan if physics else plan_flight(*asked)
+    if tighten is not None:
+        if not physics:
+            raise RequirementError("a knot is pulled tight in simulation: it takes physics=True")
+        check_tightening(chosen.cable, tighten, world)
+    if not physics:
+        return plan_flight(*asked)
+    rehearsal = rehearse_flight(*asked)
+    return rehearsal.plan if tighten is None else tighten_flight(rehearsal, tighten).plan
 
 
 def _named(knot: str | GridDiagram) -> NamedDiagram:

@@ -131,6 +131,9 @@ def test_an_interrupt_leaves_nothing(cli: Cli, tmp_path: Path, when: str) -> Non
         (("--noise", "0.1"), 2, "--noise: goes with --sim"),
         (("--wind", "1,0"), 2, "--wind: goes with --sim"),
         (("--runs", "2"), 2, "--runs: goes with --sim"),
+        (("--tighten", "5"), 2, "--tighten: goes with --sim"),
+        (("--sim", "--tighten", "1.2"), 1, "the knot's ends are 1.50 m apart when it is laid"),
+        (("--sim", "--tighten", "nan"), 1, "pulled tight they are farther apart, not nan m"),
         (("--sim", "--noise", "nan"), 1, "noise is a number from 0 up, not nan"),
         (("--sim", "--gust", "-1"), 1, "gust is a number from 0 up, not -1"),
         (("--sim", "--wind", "1"), 2, "is X,Y in m/s, such as 0.3,0; not '1'"),
@@ -166,8 +169,12 @@ def test_a_flight_in_physics(cli: Cli, tmp_path: Path) -> None:
     pytest.importorskip("mujoco")
     folder = tmp_path / "trefoil"
     disturbed = ("--runs", 2, "--noise", 0.3, "--wind", "0.1,-0.1", "--seed", 7)
-    status, out, err = cli("fly", "3", "--r", 0.25, "--sim", *disturbed, "--out", folder)
+    tight = ("--sim", "--tighten", 5)
+    status, out, err = cli("fly", "3", "--r", 0.25, *tight, *disturbed, "--out", folder)
     assert not err
+    assert re.search(
+        r"pulled tight +in \d+\.\d s more: ends 1\.50, then (4\.9|5\.0)\d m apart", out
+    )
     assert "undisturbed flight: tied: 3_1" in out
     assert "0 of 2 tie it (95 % interval 0 to 66 %); noise of 300 mm, wind (0.1, -0.1) m/s" in out
     assert re.search(r"seed 7 flight: stuck: \w+, held back at \d+\.\d s of the plan", out)
@@ -179,7 +186,10 @@ def test_a_flight_in_physics(cli: Cli, tmp_path: Path) -> None:
     assert [row["result"] for row in check["undisturbed"]["crossings"]] == ["as planned"] * 3
     assert [each["seed"] for each in check["disturbed"]] == [7, 8] and check["tied"] == 0
     page = (folder / "report.html").read_text()
-    assert "Crossings as executed" in page and "seed 7" in page
+    assert "Crossings as executed" in page and "seed 7" in page and "pulling tight" in page
+    plan = read_plan(folder / "plan.json")
+    assert check["tightening"] == plan.tightening > 5 and check["ends_apart"][1] > 4.9
+    assert check["supports_within"][1] < check["supports_within"][0]
 
 
 @pytest.mark.slow

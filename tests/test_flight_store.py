@@ -48,6 +48,7 @@ def plans(draw: st.DrawFn) -> FlightPlan:
         route=numbers,
         time=numbers,
     )
+    interval = draw(st.floats(0.01, 1))
     return FlightPlan(
         name=draw(st.text(max_size=9)),
         cable=cable,
@@ -56,7 +57,8 @@ def plans(draw: st.DrawFn) -> FlightPlan:
         schedule=draw(st.sampled_from(("fixed", "optimised"))),
         world=replace(ROOM, step=draw(st.floats(0.2, 2))),
         limits=FlightLimits(speed=draw(st.floats(0.1, 2)), slack=draw(st.floats(0, 1))),
-        times=np.arange(samples) * draw(st.floats(0.01, 1)),
+        times=np.arange(samples) * interval,
+        tightening=draw(st.integers(0, samples - 2)) * interval,
         positions=positions,
         lengths=random.uniform(0.1, 5, robots - 1),
         route=random.integers(-(10**6), 10**6, (draw(st.integers(2, 6)), 3)) / 10**5,
@@ -101,7 +103,7 @@ def test_what_is_read_is_what_was_written(plan: FlightPlan) -> None:
     for name in ("times", "positions", "lengths", "passes", "route"):
         assert np.array_equal(getattr(found, name), getattr(plan, name)), name
     rest = ("name", "supports", "chosen_by", "schedule", "world", "limits", "crossings", "notes")
-    for name in rest:
+    for name in (*rest, "tightening"):
         assert getattr(found, name) == getattr(plan, name), name
 
 
@@ -143,7 +145,10 @@ def _drop(*path: Any) -> Callable[[dict[str, Any]], None]:
     ("change", "message"),
     [
         (_set("format", "other"), '"format" is not'),
-        (_set("version", 2), "of version 2; this program reads version 1"),
+        (_set("version", 1), "of version 1; this program reads version 2"),
+        (_drop("tightening"), 'the key "tightening" is missing'),
+        (_set("tightening", 9.5), "tightening: 9.5 s are no part of a flight of 0.15 s"),
+        (_set("tightening", "late"), '"tightening" is "late", expected seconds'),
         (_drop("route"), 'the key "route" is missing'),
         (_drop("limits", "slack"), 'the key "slack" in "limits" is missing'),
         (_set("world", "roof", 3.0), 'the key "roof" in "world" is unknown'),

@@ -109,6 +109,15 @@ def fly(
         int | None,
         typer.Option(help="With --sim: disturbed flights; 5.", min=0, show_default=False),
     ] = None,
+    tighten: Annotated[
+        float | None,
+        typer.Option(
+            metavar="METRES",
+            help="With --sim: when the knot is laid, pull its ends apart, that far at most; the "
+            "supports give way.",
+            show_default=False,
+        ),
+    ] = None,
     as_json: JsonOption = False,
 ) -> None:
     """Plan a flight that ties a knot, check it, fly it in simulation, and export it.
@@ -123,6 +132,7 @@ def fly(
     from knotopt.flight.folder import why_kept
     from knotopt.flight.limits import ROOM, FlightLimits
     from knotopt.flight.planner import SCHEDULES
+    from knotopt.flight.tighten import check_tightening
     from knotopt.path.world import World
     from knotopt.supports.choice import choose_supports
     from knotopt.supports.requirements import Requirements
@@ -140,7 +150,7 @@ def fly(
     limits = FlightLimits(
         speed, acceleration, separation, downwash, spacing, slack, hover_before, hover_after
     )
-    disturbances = _disturbances(noise, wind, gust, seed, runs, sim=sim)
+    disturbances = _disturbances(noise, wind, gust, seed, runs, tighten, sim=sim)
     if out is not None:
         check_folder(out, why_kept)
     if sim:
@@ -149,8 +159,10 @@ def fly(
     named = find_knot(knot)
     chosen = choose_supports(named.diagram, supports, cut, requirements)
     asked = (chosen.supports, Path(supports).name, world, limits, schedule)
+    if tighten is not None:
+        check_tightening(chosen.cable, tighten, world)
     if sim:
-        result = _flown(named.name, chosen, asked, disturbances)
+        result = _flown(named.name, chosen, asked, disturbances, tighten)
     else:
         result = _planned(named.name, chosen, asked)
     missing = None if out is None else _write(result, out)
@@ -175,14 +187,15 @@ def _disturbances(
     gust: float | None,
     seed: int | None,
     runs: int | None,
+    tighten: float | None,
     *,
     sim: bool,
 ) -> list[Disturbance]:
-    """Of the disturbed flights, with consecutive seeds."""
+    """Of the disturbed flights, with consecutive seeds; refuses what goes with --sim only."""
     from knotopt.flight.record import Disturbance
 
     given = {"noise": noise, "wind": wind, "gust": gust, "seed": seed, "runs": runs}
-    for name, value in given.items():
+    for name, value in (given | {"tighten": tighten}).items():
         if value is not None and not sim:
             raise typer.BadParameter("goes with --sim", param_hint=f"--{name}")
     usual = Disturbance(
@@ -225,15 +238,22 @@ def _planned(name: str, chosen: SupportSet, asked: Asked) -> FlightResult:
 
 
 def _flown(
-    name: str, chosen: SupportSet, asked: Asked, disturbances: list[Disturbance]
+    name: str,
+    chosen: SupportSet,
+    asked: Asked,
+    disturbances: list[Disturbance],
+    tighten: float | None,
 ) -> FlightResult:
-    """The flight rehearsed, then flown undisturbed and disturbed."""
+    """The flight rehearsed, perhaps pulled tight, then flown undisturbed and disturbed."""
     from knotopt.flight.rehearsal import rehearse_flight
     from knotopt.flight.result import UNDISTURBED, examined, flown_content
+    from knotopt.flight.tighten import tighten_flight
     from knotopt.sim.trials import fly_trial, wilson_interval
 
     with _progress("rehearsing") as tell:
         rehearsal: Rehearsal = rehearse_flight(name, chosen.cable, *asked, tell=tell)
+        if tighten is not None:
+            rehearsal = tighten_flight(rehearsal, tighten, tell)
         plan = rehearsal.plan
         result = _result(plan, None if plan.schedule == "fixed" else rehearsal.steady)
     contents, failed = [], None

@@ -128,7 +128,7 @@ def flight_script(
 def _check_columns(plan: FlightPlan) -> None:
     """Robots take off and land straight up and down, all at once."""
     least = plan.limits.separation * (1 - 1e-4)
-    for verb, places in (("start", plan.positions[0]), ("end", plan.anchors)):
+    for verb, places in (("start", plan.positions[0]), ("end", plan.positions[-1])):
         for i, j in zip(*np.triu_indices(plan.robots, 1), strict=True):
             apart = math.dist(places[i, :2], places[j, :2])
             if apart < least:

@@ -87,13 +87,14 @@ def examine_plan(plan: FlightPlan) -> Examination:
 
     A plan that was rehearsed flies past cable as it lay in the simulation; the model may then find
     other crossings. The spacing is measured and not judged: it is along the route, which may bend.
+    Crossings are those until the knot is laid; limits are for all of the flight.
     """
     report = _limits(plan, plan.times, plan.positions, hover=True)
-    track = plan.positions[:, -1]
+    track = plan.positions[: plan.laying, -1]
     moved = np.linalg.norm(np.diff(track, axis=0), axis=1)
     along = np.concatenate(([0.0], np.cumsum(moved)))
     moving = np.concatenate(([True], moved > 0))
-    passes = np.interp(plan.passes, plan.times, along)
+    passes = np.interp(plan.passes, plan.times[: plan.laying], along)
     found = plan_word(track[moving], passes, plan.anchors, plan.lengths)
     cable = plan.cable
     taut = check_span(cable.path, cable.diagram.size, plan.supports, LEAST_OPEN)
@@ -106,7 +107,7 @@ def examine_plan(plan: FlightPlan) -> Examination:
 
 
 def examine_flight(plan: FlightPlan, record: FlightRecord) -> Examination:
-    """What robots did that flew a plan, and what the leader crossed.
+    """What robots did that flew a plan, and what the leader crossed until the knot was laid.
 
     Raises
     ------
@@ -114,14 +115,16 @@ def examine_flight(plan: FlightPlan, record: FlightRecord) -> Examination:
         A record of other robots, or with positions that are no finite numbers.
     """
     report = _limits(plan, record.times, record.robots, hover=False)
-    seen = (record.cable, record.held, plan.passes)
-    events = leader_events(record.times, *seen, clock=record.clock)
+    count = int(np.searchsorted(record.clock, plan.laid + plan.interval / 2))
+    times, clock, cable = record.times[:count], record.clock[:count], record.cable[:count]
+    seen = (cable, record.held, plan.passes)
+    events = leader_events(times, *seen, clock=clock)
     wanted = [(crossing.span, crossing.older) for crossing in plan.crossings]
-    near = nearest_approaches(*seen, record.clock, wanted)
+    near = nearest_approaches(*seen, clock, wanted)
     words = compare_words(plan.crossings, events, near)
     tolerance = TOLERANCE * plan.world.step
     planned = planned_states(plan.crossings, plan.anchors, plan.lengths, tolerance)
-    flown = (record.times, record.cable, record.held, tolerance)
+    flown = (times, cable, record.held, tolerance)
     executed = executed_states(events, *flown, plan.crossings)
     return Examination(report, _rows(words), compare_states(planned, executed, words))
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.distance import pdist
 
 from knotopt.cable.cable import Cable
 from knotopt.flight.limits import FlightLimits
@@ -86,6 +87,9 @@ class FlightPlan:
         When the leader is at the places of robots 1 to R - 1, where spans begin [s].
     notes : tuple of str
         What the planner could not do as asked.
+    tightening : float
+        Time at the end in which the knot, laid before, is pulled tight, hovering after it included
+        [s]; 0 where it is not.
     """
 
     name: str
@@ -102,6 +106,7 @@ class FlightPlan:
     crossings: tuple[PlannedCrossing, ...]
     passes: FloatArray
     notes: tuple[str, ...] = field(default=())
+    tightening: float = 0.0
 
     @property
     def robots(self) -> int:
@@ -109,10 +114,36 @@ class FlightPlan:
         return len(self.supports) + 2
 
     @property
+    def laid(self) -> float:
+        """Time at which the knot is laid and the robots have hovered [s]."""
+        return self.duration - self.tightening
+
+    @property
+    def laying(self) -> int:
+        """Number of samples until then."""
+        return round(self.laid / self.interval) + 1
+
+    @property
     def anchors(self) -> FloatArray:
-        """Where the robots hover in the end, shape (R, 3) [m]."""
-        anchors: FloatArray = self.positions[-1]
+        """Where the robots hover when the knot is laid, shape (R, 3) [m]."""
+        anchors: FloatArray = self.positions[self.laying - 1]
         return anchors
+
+    @property
+    def ends_apart(self) -> tuple[float, float]:
+        """Distance of the robots at the cable's ends, when the knot is laid and at last [m]."""
+        first, last = np.linalg.norm([each[-1] - each[0] for each in self._rests], axis=1).tolist()
+        return first, last
+
+    @property
+    def supports_within(self) -> tuple[float, float]:
+        """Largest distance of two supports, when the knot is laid and at last [m]; 0 of one."""
+        first, last = (max(pdist(each[1:-1]), default=0.0) for each in self._rests)
+        return float(first), float(last)
+
+    @property
+    def _rests(self) -> tuple[FloatArray, FloatArray]:
+        return self.anchors, self.positions[-1]
 
     @property
     def duration(self) -> float:

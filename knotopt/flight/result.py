@@ -156,16 +156,27 @@ class FlightResult:
             f", and {len(lost) - 1} more" if lost[1:] else ""
         )
 
+    @property
+    def pulled(self) -> str:
+        """How tight the knot is pulled, in words."""
+        plan = self.plan
+        ends, supports = plan.ends_apart, plan.supports_within
+        return (
+            f"in {plan.tightening:.1f} s more: ends {ends[0]:.2f}, then {ends[1]:.2f} m apart; "
+            f"supports within {supports[0]:.2f}, then {supports[1]:.2f} m"
+        )
+
     def measures(self) -> list[tuple[str, str]]:
         """Names and values for a reader."""
         plan, limits, fit = self.plan, self.examination.limits, self.fit
-        time = f"{plan.duration:.1f} s, {plan.schedule} schedule"
+        time = f"{plan.laid:.1f} s, {plan.schedule} schedule"
         if self.steady is not None:
-            shorter = round(100 * (1 - plan.duration / self.steady))
+            shorter = round(100 * (1 - plan.laid / self.steady))
             time += f"; {self.steady:.1f} s at one pace throughout: {shorter} % shorter"
         least = f"{limits.separation.value:.2f} of the separation"
         found = [
             ("time of flight", time),
+            *([("pulled tight", self.pulled)] if plan.tightening else []),
             ("cable", f"{plan.lengths.sum():.2f} m between robots, in all"),
             ("speed", f"{limits.speed.value:.2f} m/s at most; {_where(limits.speed)}"),
             (
@@ -212,6 +223,9 @@ class FlightResult:
             "notes": list(plan.notes),
             "schedule": plan.schedule,
             "duration": round(plan.duration, 3),
+            "tightening": round(plan.tightening, 3),
+            "ends_apart": [round(each, 4) for each in plan.ends_apart],
+            "supports_within": [round(each, 4) for each in plan.supports_within],
             "duration_fixed": None if self.steady is None else round(self.steady, 3),
             "cable_lengths": plan.lengths.round(4).tolist(),
             "taut_loses": list(self.examination.lost),

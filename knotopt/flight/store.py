@@ -20,7 +20,7 @@ from knotopt.flight.plan import FlightPlan, PlannedCrossing
 from knotopt.path.world import World
 
 FORMAT = "knotopt flight plan"
-VERSION = 1
+VERSION = 2
 DIGITS = 5  # of positions, after the point [m]
 UNEVEN = 1e-6  # by which two intervals between samples may differ [s]
 
@@ -53,6 +53,7 @@ def plan_to_json(plan: FlightPlan) -> str:
         "limits": asdict(plan.limits),
         "lengths": plan.lengths.tolist(),
         "passes": plan.passes.tolist(),
+        "tightening": plan.tightening,
         "crossings": [asdict(crossing) for crossing in plan.crossings],
         "route": plan.route.round(DIGITS).tolist(),
         "times": plan.times.tolist(),
@@ -128,6 +129,10 @@ def check_plan(plan: FlightPlan) -> None:
             f"positions: {'xyz'[axis]} of robot {robot + 1} at {plan.times[sample]:.3f} s "
             "is not a finite number"
         )
+    if not 0 <= plan.tightening < plan.duration:
+        raise RequirementError(
+            f"tightening: {plan.tightening!r} s are no part of a flight of {plan.duration:g} s"
+        )
     if not (plan.lengths > 0).all():
         raise RequirementError(f"lengths: {plan.lengths.min():g} m is no length of cable")
     _check_start(plan.positions[0], plan.limits)
@@ -165,10 +170,11 @@ def _plan(content: dict[str, Any]) -> FlightPlan:
         ),
         passes=_array(content, "passes"),
         notes=tuple(str(note) for note in _list(content, "notes")),
+        tightening=float(_get(content, "tightening", (float, int), "seconds")),
     )
 
 
-def _get(content: dict[str, Any], key: str, kind: type, words: str) -> Any:
+def _get(content: dict[str, Any], key: str, kind: type | tuple[type, ...], words: str) -> Any:
     if key not in content:
         raise FileFormatError(f'the key "{key}" is missing')
     if not isinstance(content[key], kind):

@@ -145,16 +145,19 @@ def strip_figure(record: FlightRecord, plan: FlightPlan, count: int = 6, title: 
     for axes in panels:
         axes.set_axis_off()
     seen = _seen(record.cable)
+    laid = seen[int(np.searchsorted(record.clock[:-1], plan.laid)), record.held, :2]
     for axes, frame in zip(panels, _instants(record, plan, count), strict=False):
         _draw_cable(axes, seen[frame], record)
         _draw_numbered(axes, seen[frame, record.held, :2])
         # Robots that still queue outside are left out of later pictures.
-        here = np.concatenate((seen[frame, :, :2], seen[-1, record.held, :2]))
+        here = np.concatenate((seen[frame, :, :2], laid))
         middle = (here.min(axis=0) + here.max(axis=0)) / 2
         half = float(np.ptp(here, axis=0).max()) / 2 + MARGIN
         (left, right), (bottom, top) = ((at - half, at + half) for at in middle.tolist())
         axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
         due = [c.name for c in plan.crossings if c.time <= record.clock[frame]]
+        if record.clock[frame] > plan.laid:
+            due.append("pulled tight")
         caption = f"{record.times[frame]:.1f} s" + (f", {due[-1]}" if due else "")
         axes.set_title(caption, fontsize=7)
     figure.suptitle(title or f"{plan.name}: {plan.robots} robots", fontsize=9, parse_math=False)

@@ -152,7 +152,8 @@ def _facts(plan: FlightPlan) -> str:
         ("chosen by", plan.chosen_by),
         ("cut", str(plan.cable.cut)),
         ("schedule", plan.schedule),
-        ("time of flight", f"{plan.duration:.1f} s"),
+        ("time of flight", f"{plan.laid:.1f} s"),
+        *([("pulling tight", f"{plan.tightening:.1f} s")] if plan.tightening else []),
         ("cable between robots, in all", f"{plan.lengths.sum():.2f} m"),
         ("crossings planned", str(len(plan.crossings))),
     ]

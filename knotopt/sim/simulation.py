@@ -7,6 +7,7 @@ robot back, the clock stands still; a plan that the cable does not allow ends "s
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,6 +23,7 @@ from knotopt.sim.model import FloatArray, IntArray, cable_model
 DT = 1 / 200  # of the physics [s]
 CONTROL = 0.02  # between commands to the robots [s]
 FRAME = 5  # commands between frames of the record
+FRAME_TIME = FRAME * CONTROL  # [s]
 GAIN = 4.0  # of the correction towards a setpoint [1/s]
 LAG = 0.1  # of the latest robot at which the clock stands still; it slows down from half of it [m]
 STALL = 5.0  # time without progress after which robots are stuck [s]
@@ -203,6 +205,41 @@ class Simulation:
                 break
         else:
             self._finished = True
+        self._seconds += time.perf_counter() - began
+        return self._finished
+
+    def pull(self, velocities: FloatArray, goes_on: Callable[[FloatArray], bool]) -> bool:
+        """Fly some robots steadily away; the others keep their height and go where cable draws.
+
+        Parameters
+        ----------
+        velocities : float array, shape (R, 3)
+            Of the robots that pull; 0 for the others [m/s].
+        goes_on : callable
+            Of the robots' positions, shape (R, 3) [m]: whether to pull on.
+
+        Returns
+        -------
+        bool
+            Whether it went on for as long as it should; else the cable holds the robots.
+        """
+        began = time.perf_counter()
+        yields = ~velocities.any(axis=1)
+        setpoints = self.robots
+        mark, marked_at = self._clock, self._commands
+        self._finished = True
+        while goes_on(self.robots):
+            setpoints[yields, :2] = self.robots[yields, :2]
+            rate = self._fly(setpoints, velocities)
+            setpoints += rate * CONTROL * velocities
+            self._clock += rate * CONTROL
+            if self._commands % FRAME == 0:
+                self._frames.append(self._frame())
+            if self._clock - mark >= PROGRESS:
+                mark, marked_at = self._clock, self._commands
+            if (self._commands - marked_at) * CONTROL > STALL or not self._is_sound():
+                self._finished = False
+                break
         self._seconds += time.perf_counter() - began
         return self._finished
 

@@ -1,0 +1,57 @@
+"""Knots pulled tight after the flight: how far the ends get, and whether the knot stays."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from benchmarks.physics import ATTEMPTS, NOISE, SEEDS, rows_of_table1, supports_of
+from benchmarks.registry import Benchmark, Case, Result, register
+from knotopt.errors import RequirementError
+from knotopt.flight.examine import examine_plan
+from knotopt.flight.record import Disturbance
+from knotopt.flight.rehearsal import rehearse_flight
+from knotopt.flight.tighten import tighten_flight
+from knotopt.sim.trials import fly_trials
+
+APART = 30.0  # of the ends at most, more than any of these cables is long [m]
+FLOWN = ("span 0.25", "lcf", "all")
+
+
+def cases(smoke: bool) -> Iterable[Case]:
+    """Smallest sets, LCF's and all turning points, for the rows of Table I."""
+    for method in FLOWN[: 1 if smoke else None]:
+        for row in rows_of_table1(smoke):
+            yield {"row": row, "method": method, "number": 0}
+
+
+def measure(case: Case) -> Result:
+    """What the pull does to the knot, and in how many disturbed flights it is the knot."""
+    cable, supports = supports_of(case)
+    about = {"cut": str(cable.cut), "robots": len(supports) + 2}
+    try:
+        rehearsal = rehearse_flight(case["row"], cable, supports, "file", attempts=ATTEMPTS)
+        tight = tighten_flight(rehearsal, APART)
+    except RequirementError as error:
+        return {**about, "planned": False, "why": str(error)}
+    plan = tight.plan
+    flights = fly_trials(plan, [Disturbance(noise=NOISE, seed=seed) for seed in SEEDS])
+    report = examine_plan(plan).limits
+    return {
+        **about,
+        "planned": True,
+        "tied_before": rehearsal.is_tied,
+        "tightening": round(plan.tightening, 2),
+        "why": plan.notes[-1] if plan.notes else "",
+        "ends_apart": [round(each, 3) for each in plan.ends_apart],
+        "supports_within": [round(each, 3) for each in plan.supports_within],
+        "undisturbed": str(tight.verdict),
+        "disturbed": [str(each.verdict) for each in flights],
+        "tied_disturbed": sum(each.is_tied for each in flights),
+        "smallest_distance": round(tight.record.smallest_distance, 4),
+        "largest_tension": round(tight.record.largest_tension, 3),
+        "separation": round(report.separation.value, 3),
+        "broken": list(report.broken),
+    }
+
+
+register(Benchmark("physics_tight", "knots pulled tight after the flight, Table I", cases, measure))
