@@ -196,6 +196,16 @@ HEADLINES = (
         for name in ("opening 0.25", "span 0.25")
     ),
     Headline(
+        "physics_tight",
+        "disturbed flights tied when pulled tight, of sets that tie [%]",
+        lambda row: (
+            [verdict.startswith("tied") for verdict in row["disturbed"]]
+            if row["planned"] and row["tightening"]
+            else []
+        ),
+        percent,
+    ),
+    Headline(
         "topology_growth",
         "all states of 5 crossings, up to symmetry [s]",
         _where("seconds", crossings=5, canonical=True),

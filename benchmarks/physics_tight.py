@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from benchmarks.physics import ATTEMPTS, NOISE, SEEDS, rows_of_table1, supports_of
+from benchmarks.physics import NOISE, SEEDS, rehearse, rows_of_table1, supports_of
 from benchmarks.registry import Benchmark, Case, Result, register
 from knotopt.errors import RequirementError
 from knotopt.flight.examine import examine_plan
 from knotopt.flight.record import Disturbance
-from knotopt.flight.rehearsal import rehearse_flight
 from knotopt.flight.tighten import tighten_flight
 from knotopt.sim.trials import fly_trials
 
@@ -26,10 +25,10 @@ def cases(smoke: bool) -> Iterable[Case]:
 
 def measure(case: Case) -> Result:
     """What the pull does to the knot, and in how many disturbed flights it is the knot."""
-    cable, supports = supports_of(case)
-    about = {"cut": str(cable.cut), "robots": len(supports) + 2}
+    chosen = supports_of(case)
+    about = {"cut": str(chosen.cable.cut), "robots": chosen.robots}
     try:
-        rehearsal = rehearse_flight(case["row"], cable, supports, "file", attempts=ATTEMPTS)
+        rehearsal = rehearse(case["row"], (chosen,))
         tight = tighten_flight(rehearsal, APART)
     except RequirementError as error:
         return {**about, "planned": False, "why": str(error)}

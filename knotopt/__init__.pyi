@@ -27,6 +27,7 @@ from .flight.plan import FlightPlan as FlightPlan
 from .flight.planner import plan_flight as plan_flight
 from .flight.rehearsal import Rehearsal as Rehearsal
 from .flight.rehearsal import rehearse_flight as rehearse_flight
+from .flight.tighten import tighten_flight as tighten_flight
 from .path.curve import Curve as Curve
 from .path.optimise import optimise_path as optimise_path
 from .path.relaxation import Relaxation as Relaxation

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 from formulations.backends import DEFAULT
@@ -13,11 +14,9 @@ from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import RequirementError
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan
-from knotopt.flight.planner import plan_flight
-from knotopt.flight.rehearsal import rehearse_flight
-from knotopt.flight.tighten import check_tightening, tighten_flight
+from knotopt.flight.tried import plan_first, rehearse_first
 from knotopt.path.world import World
-from knotopt.supports.choice import choose_supports
+from knotopt.supports.choice import equally_small
 from knotopt.supports.minimal import MinimalSupports, minimal_supports
 from knotopt.supports.requirements import Requirements
 from knotopt.supports.search import best_supports
@@ -98,7 +97,7 @@ def plan(
         "milp" (the smallest set), "lcf", "all", a `.json` file with a set, or a result such as
         that of `solve` or `lcf`, whose cut then counts.
     cut : str
-        "best" or a cut's name.
+        A cut's name, or "best": where its flight fails, other cuts with sets as small are tried.
     requirements : Requirements, optional
         Of the smallest set; by default `span` with an openness of a quarter of a grid step.
     world : World
@@ -124,24 +123,22 @@ def plan(
     ('3_1', (5, 3), ['span 4 over span 1', 'span 4 under span 1', 'span 4 over span 2'])
     """
     named = _named(knot)
+    sets: Iterable[SupportSet]
     if isinstance(supports, SupportSet):
-        chosen, how = supports, "given"
-        if chosen.cable.diagram != named.diagram:
+        sets, how = [supports], "given"
+        if supports.cable.diagram != named.diagram:
             raise RequirementError("the supports are of another diagram than the knot's")
-        if isinstance(chosen, MinimalSupports) and not chosen.found:
+        if isinstance(supports, MinimalSupports) and not supports.found:
             raise RequirementError("there is no set of supports to fly: none was found")
     else:
-        chosen = choose_supports(named.diagram, supports, cut, requirements or FLOWN)
+        sets = equally_small(named.diagram, supports, cut, requirements or FLOWN)
         how = Path(supports).name
-    asked = (named.name, chosen.cable, chosen.supports, how, world, limits, schedule)
+    asked = (how, world, limits, schedule)
+    if physics:
+        return rehearse_first(named.name, sets, asked, tighten).plan
     if tighten is not None:
-        if not physics:
-            raise RequirementError("a knot is pulled tight in simulation: it takes physics=True")
-        check_tightening(chosen.cable, tighten, world)
-    if not physics:
-        return plan_flight(*asked)
-    rehearsal = rehearse_flight(*asked)
-    return rehearsal.plan if tighten is None else tighten_flight(rehearsal, tighten).plan
+        raise RequirementError("a knot is pulled tight in simulation: it takes physics=True")
+    return plan_first(named.name, sets, asked)
 
 
 def _named(knot: str | GridDiagram) -> NamedDiagram:

@@ -38,6 +38,8 @@ def test_what_is_asked_in_vain() -> None:
         knotopt.solve("3", cut="X+")
     with pytest.raises(RequirementError, match="of another diagram"):
         knotopt.plan("3", knotopt.solve("4"))
+    with pytest.raises(RequirementError, match="it takes physics=True"):
+        knotopt.plan("3", tighten=5.0)
     nothing = knotopt.solve("3", Requirements(forbidden=tuple(range(2, 10))), cut="L+")
     with pytest.raises(RequirementError, match="none was found"):
         knotopt.plan("3", nothing)

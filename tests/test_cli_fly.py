@@ -14,7 +14,7 @@ import pytest
 from conftest import Cli
 
 from knotopt.export.waypoints import read_waypoints
-from knotopt.flight import planner
+from knotopt.flight import tried
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.planner import FlightPlanner, plan_flight
 from knotopt.flight.store import read_plan
@@ -72,7 +72,7 @@ def test_a_broken_limit_is_said_and_everything_written(cli: Cli, tmp_path: Path)
         plan = plan_flight(*arguments)
         return replace(plan, world=replace(plan.world, ceiling=2.21))
 
-    cli.monkeypatch.setattr(planner, "plan_flight", too_high)
+    cli.monkeypatch.setattr(tried, "plan_flight", too_high)
     status, out, err = cli("fly", "3", "--out", tmp_path / "high")
     assert (status, err) == (1, "")
     assert re.search(r"not good: the plan: robot \d is at 2.\d+ m at .* above the ceiling of", out)

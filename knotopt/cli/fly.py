@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -24,12 +24,10 @@ from knotopt.cli.output import (
 )
 
 if TYPE_CHECKING:
-    from knotopt.flight.limits import FlightLimits
     from knotopt.flight.plan import FlightPlan
     from knotopt.flight.record import Disturbance
-    from knotopt.flight.rehearsal import Rehearsal
     from knotopt.flight.result import FlightResult
-    from knotopt.path.world import World
+    from knotopt.flight.tried import Asked
     from knotopt.supports.support_set import SupportSet
 
 RUNS = 5
@@ -132,9 +130,8 @@ def fly(
     from knotopt.flight.folder import why_kept
     from knotopt.flight.limits import ROOM, FlightLimits
     from knotopt.flight.planner import SCHEDULES
-    from knotopt.flight.tighten import check_tightening
     from knotopt.path.world import World
-    from knotopt.supports.choice import choose_supports
+    from knotopt.supports.choice import equally_small
     from knotopt.supports.requirements import Requirements
 
     if schedule not in SCHEDULES:
@@ -157,14 +154,12 @@ def fly(
         _check_physics()
 
     named = find_knot(knot)
-    chosen = choose_supports(named.diagram, supports, cut, requirements)
-    asked = (chosen.supports, Path(supports).name, world, limits, schedule)
-    if tighten is not None:
-        check_tightening(chosen.cable, tighten, world)
+    sets = equally_small(named.diagram, supports, cut, requirements)
+    asked = (Path(supports).name, world, limits, schedule)
     if sim:
-        result = _flown(named.name, chosen, asked, disturbances, tighten)
+        result = _flown(named.name, sets, asked, disturbances, tighten)
     else:
-        result = _planned(named.name, chosen, asked)
+        result = _planned(named.name, sets, asked)
     missing = None if out is None else _write(result, out)
     if as_json:
         print_json({**result.content(), "written": None if out is None else str(out)})
@@ -176,9 +171,6 @@ def fly(
             print_written(out)
     if result.reasons:
         raise typer.Exit(1)
-
-
-Asked = tuple[tuple[int, ...], str, "World", "FlightLimits", str]
 
 
 def _disturbances(
@@ -225,35 +217,34 @@ def _check_physics() -> None:
         raise MissingExtraError("mujoco", "sim", "--sim") from error
 
 
-def _planned(name: str, chosen: SupportSet, asked: Asked) -> FlightResult:
+def _planned(name: str, sets: Iterable[SupportSet], asked: Asked) -> FlightResult:
     """The flight by the model of laid cable."""
     from knotopt.flight.planner import plan_flight
+    from knotopt.flight.tried import plan_first
 
     with _progress("planning"):
-        plan = plan_flight(name, chosen.cable, *asked)
+        plan = plan_first(name, sets, asked)
         steady = None
         if plan.schedule != "fixed":
-            steady = plan_flight(name, chosen.cable, *asked[:-1], "fixed").duration
+            flown = (plan.cable, plan.supports, *asked[:-1])
+            steady = plan_flight(name, *flown, "fixed").duration
         return _result(plan, steady)
 
 
 def _flown(
     name: str,
-    chosen: SupportSet,
+    sets: Iterable[SupportSet],
     asked: Asked,
     disturbances: list[Disturbance],
     tighten: float | None,
 ) -> FlightResult:
     """The flight rehearsed, perhaps pulled tight, then flown undisturbed and disturbed."""
-    from knotopt.flight.rehearsal import rehearse_flight
     from knotopt.flight.result import UNDISTURBED, examined, flown_content
-    from knotopt.flight.tighten import tighten_flight
+    from knotopt.flight.tried import rehearse_first
     from knotopt.sim.trials import fly_trial, wilson_interval
 
     with _progress("rehearsing") as tell:
-        rehearsal: Rehearsal = rehearse_flight(name, chosen.cable, *asked, tell=tell)
-        if tighten is not None:
-            rehearsal = tighten_flight(rehearsal, tighten, tell)
+        rehearsal = rehearse_first(name, sets, asked, tighten, tell)
         plan = rehearsal.plan
         result = _result(plan, None if plan.schedule == "fixed" else rehearsal.steady)
     contents, failed = [], None

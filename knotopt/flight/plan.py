@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -107,6 +107,10 @@ class FlightPlan:
     passes: FloatArray
     notes: tuple[str, ...] = field(default=())
     tightening: float = 0.0
+
+    def noted(self, *notes: str) -> FlightPlan:
+        """The plan with further notes."""
+        return replace(self, notes=(*self.notes, *notes))
 
     @property
     def robots(self) -> int:

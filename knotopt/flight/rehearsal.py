@@ -90,6 +90,19 @@ class Rehearsal:
         return self.verdict.outcome is Outcome.TIED
 
     @property
+    def against(self) -> str:
+        """What speaks against flying it, "" if nothing does."""
+        if not self.is_tied:
+            return str(self.verdict)
+        if self.separation < 1:
+            return f"robots come within {self.separation:.2f} of their separation"
+        return ""
+
+    def noted(self, *notes: str) -> Rehearsal:
+        """The rehearsal with further notes of its plan."""
+        return replace(self, plan=self.plan.noted(*notes))
+
+    @property
     def rank(self) -> tuple[bool, bool, int, int]:
         """Larger is better: tied, robots apart, robust, few crossings failed."""
         return self.is_tied, self.separation >= 1, self.robust, -len(self.failed)

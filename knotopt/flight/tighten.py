@@ -27,7 +27,7 @@ from knotopt.sim.trials import fly_trial, fly_trials
 
 FloatArray = NDArray[np.float64]
 
-PACE = 0.2  # of each end [m/s]
+PACE = 0.2  # of each end [m/s], at most half of what robots may fly
 APART = 1.05  # of their separation that robots keep
 TAUT = 0.99  # of the cable between two robots that they get apart
 SMOOTH = 0.3  # standard deviation of the time over which ways are smoothed [s]
@@ -85,8 +85,9 @@ def tighten_flight(
     plan = rehearsal.plan
     check_tightening(plan.cable, apart, plan.world)
     if not rehearsal.is_tied:
-        return _noted(rehearsal, "not pulled tight: the flight does not tie the knot")
+        return rehearsal.noted("not pulled tight: the flight does not tie the knot")
     tell = tell or (lambda _: None)
+    tell("pulling tight")
     pull = _pull(plan, apart)
     for share in SHARES:
         tightened = _tightened(plan, pull.ways[: max(2, round(share * len(pull.ways)))])
@@ -96,13 +97,13 @@ def tighten_flight(
         if trial.is_tied and robust >= rehearsal.robust:
             break
     else:
-        return _noted(rehearsal, "not pulled tight: no pull keeps the knot")
+        return rehearsal.noted("not pulled tight: no pull keeps the knot")
     found = replace(
         rehearsal, plan=tightened, record=trial.record, verdict=trial.verdict, robust=robust
     )
     why = pull.why if share == 1 else "farther it is not the knot"
     pulled = f"the ends are pulled {tightened.ends_apart[1]:.2f} m apart, not {apart:g} m"
-    return _noted(found, f"{pulled}: {why}") if why else found
+    return found.noted(f"{pulled}: {why}") if why else found
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +123,8 @@ def _pull(plan: FlightPlan, apart: float) -> _Pull:
     begun = len(simulation.record().times) - 1
     out = (plan.anchors[-1] - plan.anchors[0]) / np.linalg.norm(plan.anchors[-1] - plan.anchors[0])
     velocities = np.zeros_like(plan.anchors)
-    velocities[0], velocities[-1] = -PACE * out, PACE * out
+    pace = min(PACE, plan.limits.speed / 2)
+    velocities[0], velocities[-1] = -pace * out, pace * out
     ellipsoid = [plan.limits.separation, plan.limits.separation, plan.limits.downwash]
 
     def is_far(robots: FloatArray) -> bool:
@@ -141,6 +143,7 @@ def _pull(plan: FlightPlan, apart: float) -> _Pull:
     if not gave_way:  # the time in which nothing moved is left out
         end = int(np.searchsorted(record.clock, record.clock[-1] - PROGRESS)) + 1
     ways = record.robots[begun:end]
+    ways = ways[np.isfinite(ways).all(axis=(1, 2))]  # a simulation may break down
     if not gave_way:
         return _Pull(ways, "the cable holds them")
     return _Pull(ways, "" if is_far(simulation.robots) else nearest(simulation.robots)[1])
@@ -177,8 +180,3 @@ def _tightened(plan: FlightPlan, ways: FloatArray) -> FlightPlan:
         positions=np.concatenate((plan.positions, positions)),
         tightening=INTERVAL * len(positions),
     )
-
-
-def _noted(rehearsal: Rehearsal, note: str) -> Rehearsal:
-    plan = rehearsal.plan
-    return replace(rehearsal, plan=replace(plan, notes=(*plan.notes, note)))

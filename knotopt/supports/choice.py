@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from knotopt.cable.cable import Cable
-from knotopt.cable.cut import Cut
+from knotopt.cable.cut import Cut, crossing_free_cuts
 from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import FileFormatError, RequirementError
 from knotopt.supports.lcf import best_cut, lcf
@@ -81,6 +83,40 @@ def choose_supports(
     if not result.found:
         raise RequirementError(f"no set of supports meets the requirements on cut {cut}")
     return result
+
+
+def equally_small(
+    diagram: GridDiagram, choice: str, cut: str = "best", requirements: Requirements | None = None
+) -> Iterator[SupportSet]:
+    """The supports that a choice stands for, then those of other cuts that are as few.
+
+    Found as they are asked for. Where the cut is given, or the choice is a file, there is one set.
+
+    Parameters
+    ----------
+    diagram, choice, cut, requirements
+        As for `choose_supports`.
+
+    Raises
+    ------
+    As `choose_supports`.
+
+    Examples
+    --------
+    >>> from knotopt.catalogue.lookup import find_knot
+    >>> [str(each.cable.cut) for each in equally_small(find_knot("4").diagram, "lcf")]
+    ['L+', 'R-', 'B+', 'T-']
+    """
+    first = choose_supports(diagram, choice, cut, requirements)
+    yield first
+    if cut != "best" or choice not in CHOICES:
+        return
+    for other in crossing_free_cuts(diagram):
+        if other != first.cable.cut:
+            with suppress(RequirementError):  # no set at all on that cut
+                found = choose_supports(diagram, choice, str(other), requirements)
+                if found.robots == first.robots:
+                    yield found
 
 
 def read_supports(path: Path, diagram: GridDiagram, cut: str = "best") -> GivenSupports:
