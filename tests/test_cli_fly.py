@@ -121,6 +121,8 @@ def test_an_interrupt_leaves_nothing(cli: Cli, tmp_path: Path, when: str) -> Non
         (("--cut", "col2+"), 1, "carries"),
         (("--speed", "nan"), 1, "speed is a number from 0 up, not nan"),
         (("--acceleration", "0"), 1, "acceleration must be positive"),
+        (("--hover-after", "0"), 1, "hover_after must be positive"),
+        (("--hover-before", "0.01"), 1, "hover_before lies between 0.05 and 600 s, not at 0.01"),
         (("--hover-before", "inf"), 1, "hover_before is a number from 0 up, not inf"),
         (("--separation", "0.4"), 1, "a downwash of 0.33 m is less than the separation of 0.4 m"),
         (("--spacing", "0.1"), 1, "a spacing of 0.1 m is less than the separation"),

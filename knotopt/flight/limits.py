@@ -19,10 +19,11 @@ RANGES = {
     "downwash": (0.01, 10.0, "m"),
     "spacing": (0.01, 10.0, "m"),
     "slack": (0.0, 10.0, "of it"),
-    "hover_before": (0.0, 600.0, "s"),
-    "hover_after": (0.0, 600.0, "s"),
+    "hover_before": (0.05, 600.0, "s"),
+    "hover_after": (0.05, 600.0, "s"),
 }
-"""Of what a quadrotor may be asked; beyond, flights take days or programs are out of scale."""
+"""Of what a quadrotor may be asked; beyond, flights take days or programs are out of scale. Without
+a moment of hovering robots would have to accelerate all at once, which no polynomial does."""
 
 
 @dataclass(frozen=True)

@@ -68,6 +68,8 @@ def rehearse_first(
     def attempt(chosen: SupportSet) -> Rehearsal:
         if tighten is not None:
             check_tightening(chosen.cable, tighten, asked[1])
+        if tell is not None:
+            tell(f"{chosen.robots} robots on cut {chosen.cable.cut}")
         found = rehearse_flight(name, chosen.cable, chosen.supports, *asked, tell=tell)
         return found if tighten is None else tighten_flight(found, tighten, tell)
 
