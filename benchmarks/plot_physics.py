@@ -18,21 +18,18 @@ SEEDS = 3  # disturbed flights, of the five, that a set is asked to tie in
 def flown_table(rows: Rows) -> str:
     """One line a set: robots, what the flights tied, what went wrong first."""
     lines = [
-        "| row | method | cut | robots | undisturbed | disturbed, tied | rehearsals | flight [s] "
-        "| robots apart | first crossing amiss |",
-        "|---|---|---|---|---|---|---|---|---|---|",
+        "| row | method | cut | cuts tried | robots | undisturbed | disturbed, tied | rehearsals "
+        "| flight [s] | robots apart | first crossing amiss |",
+        "|---|---|---|---|---|---|---|---|---|---|---|",
     ]
     for row in rows:
         method = row["method"] + (f", set {row['number'] + 1}" if row["number"] else "")
+        start = f"| {row['row']} | {method} | {row['cut']} | {row['cuts_tried']} | {row['robots']} "
         if not row["planned"]:
-            lines.append(
-                f"| {row['row']} | {method} | {row['cut']} | {row['robots']} "
-                f"| no plan: {row['why']} | | | | | |"
-            )
+            lines.append(f"{start}| no plan: {row['why']} | | | | | |")
             continue
         lines.append(
-            f"| {row['row']} | {method} | {row['cut']} | {row['robots']} "
-            f"| {row['undisturbed'].replace('|', '/')} "
+            f"{start}| {row['undisturbed'].replace('|', '/')} "
             f"| {row['tied_disturbed']} of {len(row['disturbed'])} "
             f"| {row['rehearsals'] or 'none'} | {row['flight_seconds']:.0f} "
             f"| {row['separation']:.2f} "
@@ -188,6 +185,8 @@ def write_parts() -> tuple[list[str], dict[str, Figure]]:
         parts += [
             "## Knots to 7 crossings, KnotInfo's grids",
             rates_table(knots),
+            "Each on the first cut whose set ties with the robots apart, of the cuts whose sets are "
+            "as small as the best cut's; where there is none, on the best of them.",
             flown_table(knots),
         ]
     if (plot.RESULTS / "physics_subsets.jsonl").exists():
