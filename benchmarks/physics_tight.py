@@ -33,7 +33,8 @@ def measure(case: Case) -> Result:
     except RequirementError as error:
         return {**about, "planned": False, "why": str(error)}
     plan = tight.plan
-    flights = fly_trials(plan, [Disturbance(noise=NOISE, seed=seed) for seed in SEEDS])
+    disturbances = [Disturbance(noise=NOISE, seed=seed) for seed in SEEDS]
+    laid, flights = (fly_trials(each, disturbances) for each in (rehearsal.plan, plan))
     report = examine_plan(plan).limits
     return {
         **about,
@@ -45,6 +46,7 @@ def measure(case: Case) -> Result:
         "supports_within": [round(each, 3) for each in plan.supports_within],
         "undisturbed": str(tight.verdict),
         "disturbed": [str(each.verdict) for each in flights],
+        "tied_laid": sum(each.is_tied for each in laid),
         "tied_disturbed": sum(each.is_tied for each in flights),
         "smallest_distance": round(tight.record.smallest_distance, 4),
         "largest_tension": round(tight.record.largest_tension, 3),
