@@ -24,7 +24,7 @@ from knotopt.flight.record import Disturbance
         ("acceleration", 1e-9, "acceleration lies between 0.01 and 100 m/s^2, not at 1e-09"),
         ("spacing", 1e6, "spacing lies between 0.01 and 10 m, not at 1000000.0"),
         ("slack", 1e6, "slack lies between 0 and 10 of it, not at 1000000.0"),
-        ("hover_before", 1e6, "hover_before lies between 0 and 600 s, not at 1000000.0"),
+        ("hover_before", 1e6, "hover_before lies between 0.05 and 600 s, not at 1000000.0"),
         ("speed", 0, "speed must be positive"),
         ("speed", math.nan, "speed is a number from 0 up, not nan"),
     ],
