@@ -55,6 +55,15 @@ def test_the_strip_ends_with_the_flight() -> None:
         assert sorted(strokes[1::2]) == sorted(np.repeat(ramp(PLAN.robots)[:-1], 12).tolist())
 
 
+def test_the_strip_says_what_is_pulled_tight_and_nothing_else() -> None:
+    late = replace(RECORD, clock=RECORD.clock * (1 + 1e-12))  # sums of times round either way
+    titles = [axes.get_title() for axes in strip_figure(late, PLAN, count=3).axes]
+    assert titles[-1] == "12.1 s, span 4 under span 2"
+    tight = replace(PLAN, tightening=2.0)  # from 9 s on
+    titles = [axes.get_title() for axes in strip_figure(RECORD, tight, count=3).axes]
+    assert "pulled tight" not in "".join(titles[:-1]) and titles[-1] == "12.1 s, pulled tight"
+
+
 @pytest.mark.parametrize("lift", [5.0, -5.0])
 def test_what_is_higher_is_drawn_later(lift: float) -> None:
     corners = np.array([[0, 0, 0], [2, 2, 0], [2, 0, lift], [0, 2, lift]], dtype=float)

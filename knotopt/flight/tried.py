@@ -49,6 +49,7 @@ def rehearse_first(
     asked: Asked,
     tighten: float | None = None,
     tell: Callable[[str], None] | None = None,
+    attempts: int = 6,
 ) -> Rehearsal:
     """A flight of the first set that ties the knot in simulation with the robots apart.
 
@@ -59,6 +60,8 @@ def rehearse_first(
         Pull the knot tight after it, the ends at most that far apart [m].
     tell : callable, optional
         Is told what is being flown.
+    attempts : int
+        Flights that are begun anew at most, for each set.
 
     Raises
     ------
@@ -70,7 +73,8 @@ def rehearse_first(
             check_tightening(chosen.cable, tighten, asked[1])
         if tell is not None:
             tell(f"{chosen.robots} robots on cut {chosen.cable.cut}")
-        found = rehearse_flight(name, chosen.cable, chosen.supports, *asked, tell=tell)
+        flown = (chosen.cable, chosen.supports, *asked)
+        found = rehearse_flight(name, *flown, tell=tell, attempts=attempts)
         return found if tighten is None else tighten_flight(found, tighten, tell)
 
     return first_good(sets, attempt, lambda each: each.against, lambda each: each.rank[:3])

@@ -156,7 +156,7 @@ def strip_figure(record: FlightRecord, plan: FlightPlan, count: int = 6, title: 
         (left, right), (bottom, top) = ((at - half, at + half) for at in middle.tolist())
         axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
         due = [c.name for c in plan.crossings if c.time <= record.clock[frame]]
-        if record.clock[frame] > plan.laid:
+        if record.clock[frame] > plan.laid + plan.interval:
             due.append("pulled tight")
         caption = f"{record.times[frame]:.1f} s" + (f", {due[-1]}" if due else "")
         axes.set_title(caption, fontsize=7)
