@@ -6,7 +6,7 @@ import time
 
 from benchmarks.registry import Benchmark, Case, Result, each_knot, register
 from knotopt.catalogue.knots import shipped_knots
-from knotopt.certificate import prove
+from knotopt.supports.certificate import prove
 from knotopt.verify.certificate import check_certificate
 
 

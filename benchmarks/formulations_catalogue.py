@@ -11,10 +11,10 @@ from knotopt.atlas.solvers import warm
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import crossing_free_cuts
 from knotopt.catalogue.knots import shipped_knots
-from knotopt.comparison import is_open
 from knotopt.supports.lcf import lcf
 from knotopt.supports.minimal import compile_program
 from knotopt.supports.requirements import Formulation, Requirements
+from knotopt.tables.comparison import is_open
 
 THREADINGS = {"opening": None, "opening_over_under": "over-under", "span": None}
 

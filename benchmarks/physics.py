@@ -22,13 +22,13 @@ from knotopt.flight.limits import ROOM
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.planner import plan_flight
 from knotopt.flight.record import Disturbance
-from knotopt.flight.rehearsal import Rehearsal
-from knotopt.flight.tried import PASSED, rehearse_first
+from knotopt.mission.alternatives import PASSED, rehearse_first
+from knotopt.rehearsal.rehearse import Rehearsal
 from knotopt.sim.trials import fly_trial, fly_trials
-from knotopt.supports.choice import GivenSupports, choose_supports, equally_small
+from knotopt.supports.by_size import optimal_sets
 from knotopt.supports.minimal import MinimalSupports
-from knotopt.supports.ordered import optimal_sets
 from knotopt.supports.requirements import Requirements
+from knotopt.supports.selection import GivenSupports, choose_supports, equally_small
 from knotopt.supports.support_set import SupportSet
 
 NOISE = 0.01  # of robots' positions [m]

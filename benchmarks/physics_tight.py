@@ -9,7 +9,7 @@ from benchmarks.registry import Benchmark, Case, Result, register
 from knotopt.errors import RequirementError
 from knotopt.flight.examine import examine_plan
 from knotopt.flight.record import Disturbance
-from knotopt.flight.tighten import tighten_flight
+from knotopt.rehearsal.tighten import tighten_flight
 from knotopt.sim.trials import fly_trials
 
 APART = 30.0  # of the ends at most, more than any of these cables is long [m]

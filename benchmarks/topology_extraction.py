@@ -7,9 +7,9 @@ from collections.abc import Iterable
 from statistics import median
 
 import numpy as np
-from numpy.typing import NDArray
 
 from benchmarks.registry import Benchmark, Case, Result, register
+from knotopt.arrays import FloatArray
 from knotopt.topology.extract import extract_state
 from knotopt.verify.crossings import curve_crossings
 
@@ -49,7 +49,7 @@ def measure(case: Case) -> Result:
     }
 
 
-def curve_of(case: Case) -> NDArray[np.float64]:
+def curve_of(case: Case) -> FloatArray:
     """The polyline of a kind, number of points and seed."""
     count = case["points"]
     t = np.linspace(0, 1, count)[:, None]

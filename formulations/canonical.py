@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Protocol
 
-from formulations.instance import FloatArray, Instance, Row
+from formulations.arrays import FloatArray
+from formulations.instance import Instance, Row
 from formulations.solution import Backend, Limits, Status
 from formulations.timing import Deadline
 

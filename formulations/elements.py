@@ -19,10 +19,8 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+from formulations.arrays import IntArray
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,8 @@ from enum import StrEnum
 
 import numpy as np
 
-from formulations.elements import FloatArray, Structure, build_solver, solver_options
+from formulations.arrays import FloatArray
+from formulations.elements import Structure, build_solver, solver_options
 from formulations.path import PathProgram
 from formulations.path_terms import Constraint, Layout, constraint_terms, objective_terms
 

@@ -17,7 +17,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from formulations.instance import FloatArray, Instance, IntArray, Row
+from formulations.arrays import FloatArray, IntArray
+from formulations.instance import Instance, Row
 from formulations.team import Team
 
 

@@ -21,11 +21,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from formulations.elements import FloatArray, IntArray
-
-BoolArray = NDArray[np.bool_]
+from formulations.arrays import BoolArray, FloatArray, IntArray
 
 
 class ProgramError(ValueError):

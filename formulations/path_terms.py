@@ -7,7 +7,8 @@ import math
 import casadi as ca
 import numpy as np
 
-from formulations.elements import Element, FloatArray, IntArray, Terms
+from formulations.arrays import FloatArray, IntArray
+from formulations.elements import Element, Terms
 from formulations.path import PathProgram
 
 SMOOTHING = 1e-4  # a segment of length zero has length SMOOTHING, so that it has a derivative

@@ -13,9 +13,8 @@ from itertools import pairwise
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from formulations.arrays import BoolArray, FloatArray
 
 CRAWL = 1e-4  # least share of the largest path speed, squared; it is zero at both ends only
 STILL = 1e-6  # a body with smaller derivatives stands
@@ -158,7 +157,7 @@ def _solve(
     nodes: FloatArray,
     first: FloatArray,
     second: FloatArray,
-    wanted: NDArray[np.bool_],
+    wanted: BoolArray,
     acceleration: float,
     low: FloatArray,
     high: FloatArray,

@@ -12,7 +12,8 @@ from itertools import pairwise, product
 
 import numpy as np
 
-from formulations.instance import BoolArray, FloatArray, Instance, IntArray, Row
+from formulations.arrays import BoolArray, FloatArray, IntArray
+from formulations.instance import Instance, Row
 from formulations.team import Team
 
 Span = tuple[int, int]

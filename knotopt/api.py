@@ -14,12 +14,12 @@ from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import RequirementError
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan
-from knotopt.flight.tried import plan_first, rehearse_first
+from knotopt.mission.alternatives import plan_first, rehearse_first
 from knotopt.path.world import World
-from knotopt.supports.choice import equally_small
 from knotopt.supports.minimal import MinimalSupports, minimal_supports
 from knotopt.supports.requirements import Requirements
 from knotopt.supports.search import best_supports
+from knotopt.supports.selection import equally_small
 from knotopt.supports.support_set import SupportSet
 
 FLOWN = Requirements("span", 0.25)

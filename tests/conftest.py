@@ -16,7 +16,7 @@ from hypothesis import settings
 from knotopt.cli import app
 
 if TYPE_CHECKING:
-    from knotopt.atlas.item import KnotResult
+    from knotopt.atlas.measure import KnotResult
 
 settings.register_profile("fixed", derandomize=True, deadline=None)
 settings.register_profile("explore", deadline=None, max_examples=1000, print_blob=True)
@@ -52,7 +52,7 @@ def cli(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> 
 @pytest.fixture
 def results() -> dict[int, KnotResult]:
     """Of the knots of the small atlas, by number."""
-    from small_atlas import measured
+    from tests.small_atlas import measured
 
     return measured()
 
@@ -60,7 +60,7 @@ def results() -> dict[int, KnotResult]:
 @pytest.fixture
 def whole(tmp_path: Path) -> Path:
     """The folder of a run of the small atlas."""
-    from small_atlas import whole_run
+    from tests.small_atlas import whole_run
 
     return whole_run(tmp_path)
 
@@ -68,6 +68,6 @@ def whole(tmp_path: Path) -> Path:
 @pytest.fixture
 def half(tmp_path: Path) -> Path:
     """The folder of a run of the small atlas that was interrupted."""
-    from small_atlas import half_run
+    from tests.small_atlas import half_run
 
     return half_run(tmp_path)

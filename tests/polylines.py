@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from knotopt.arrays import FloatArray
 from knotopt.topology.extract import extract_state
 from knotopt.topology.state import RopeState
 from knotopt.verify.crossings import curve_crossings
 
-Points = NDArray[np.float64]
+Points = FloatArray
 
 
 def state_of(points: Any, **tolerances: float) -> RopeState:

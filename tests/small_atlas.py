@@ -9,12 +9,12 @@ from typing import Any
 
 import pytest
 
-from knotopt.atlas.item import KnotResult, measure_knot
+from knotopt.atlas.knot_list import knot_rows
+from knotopt.atlas.measure import KnotResult, measure_knot
 from knotopt.atlas.run import run_atlas
 from knotopt.atlas.schema import (
     Settings,
 )
-from knotopt.atlas.work import knot_rows
 from knotopt.catalogue.lookup import find_knot
 
 LIST = knot_rows(map(find_knot, ("3_1", "4_1", "5_1", "5_2", "T(2,7)")))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from knotopt.cable.cable import Cable
 from knotopt.diagram.families import torus_knot
@@ -11,7 +10,6 @@ from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan, PlannedCrossing
 from knotopt.path.world import World
 
-FloatArray = NDArray[np.float64]
 AMPLE = FlightLimits(speed=9, acceleration=90)
 
 

@@ -67,11 +67,11 @@ class CpSat:
             solver.parameters.linearization_level = 0
         build_seconds = time.perf_counter() - began
         began = time.perf_counter()
-        solver.solve(model)
+        status = solver.solve(model).name
         _hear_interrupts()
         answer = Answer(
-            _STATUS.get(solver.status_name(), Status.ERROR),
-            solver.status_name(),
+            _STATUS.get(status, Status.ERROR),
+            status,
             solve_seconds=time.perf_counter() - began,
         )
         if answer.status in (Status.OPTIMAL, Status.FEASIBLE):
@@ -103,7 +103,7 @@ class CpSat:
                 search.join(0.1)
             except KeyboardInterrupt:
                 solver.stop_search()
-        complete = solver.status_name() in ("OPTIMAL", "INFEASIBLE")
+        complete = solver.response_proto.status.name in ("OPTIMAL", "INFEASIBLE")
         return Enumeration(tuple(sorted(every.sets)[:count]), complete and len(every.sets) <= count)
 
     def _version(self) -> str:

@@ -6,8 +6,8 @@ import time
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 
+from knotopt.atlas.optional_rows import FlightRow, FlightTimesRow
 from knotopt.atlas.programs import Solved
-from knotopt.atlas.requested import FlightRow, FlightTimesRow
 from knotopt.atlas.schema import KnotRow
 from knotopt.cable.cable import Cable
 from knotopt.errors import RequirementError
@@ -15,9 +15,9 @@ from knotopt.flight.examine import examine_flight
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.planner import plan_flight
 from knotopt.sim.trials import Trial, fly_trial
-from knotopt.supports.choice import GivenSupports
 from knotopt.supports.lcf import LcfResult
 from knotopt.supports.requirements import Formulation
+from knotopt.supports.selection import GivenSupports
 
 Supports = tuple[int, ...]
 

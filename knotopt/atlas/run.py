@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 
 from knotopt.atlas.engine import Engine, EngineError
-from knotopt.atlas.item import KnotResult, check_installed, measure_knot, versions
+from knotopt.atlas.measure import KnotResult, check_installed, measure_knot, versions
 from knotopt.atlas.schema import KnotRow, Manifest, Settings, list_hash
 from knotopt.atlas.store import opened
 

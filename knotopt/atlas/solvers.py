@@ -8,8 +8,8 @@ from functools import cache
 
 from formulations.instance import Instance, Row
 from formulations.solution import BackendError, Limits, Solution, Status
+from knotopt.atlas.optional_rows import SolverRow, SolverTimesRow
 from knotopt.atlas.programs import Solved
-from knotopt.atlas.requested import SolverRow, SolverTimesRow
 from knotopt.atlas.schema import KnotRow, Settings
 from knotopt.cable.cable import Cable
 from knotopt.supports.minimal import find_backend

@@ -20,8 +20,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from knotopt.atlas.item import KnotResult
-from knotopt.atlas.requested import ON_REQUEST
+from knotopt.atlas.measure import KnotResult
+from knotopt.atlas.optional_rows import ON_REQUEST
 from knotopt.atlas.schema import (
     ATLAS,
     KNOTS,

@@ -141,7 +141,7 @@ def atlas(
 def _list(
     knots: list[str] | None, grids: Path | None, *, catalogue: bool, knotinfo: bool
 ) -> tuple[KnotRow, ...]:
-    from knotopt.atlas.work import catalogue_rows, folder_rows, knot_rows
+    from knotopt.atlas.knot_list import catalogue_rows, folder_rows, knot_rows
     from knotopt.catalogue.lookup import find_knot
 
     if sum(map(bool, (knots, grids, catalogue, knotinfo))) > 1:

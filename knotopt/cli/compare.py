@@ -28,7 +28,7 @@ from knotopt.cli.output import (
 
 if TYPE_CHECKING:
     from knotopt.catalogue.lookup import NamedDiagram
-    from knotopt.comparison import ComparisonRow
+    from knotopt.tables.comparison import ComparisonRow
 
 
 def compare(
@@ -51,11 +51,11 @@ def compare(
     With --out, a run that is interrupted goes on where it stopped.
     Example: knotopt compare 3 4 5 8_19 'T(3,5)' --out comparison.tex
     """
-    from knotopt import comparison
     from knotopt.cable.cut import Cut
     from knotopt.errors import OutputError
     from knotopt.files import resumable_lines
     from knotopt.path import measures
+    from knotopt.tables import comparison
 
     found = find_knots(knots, catalogue=catalogue)
     if out is not None and out.suffix.lower() not in comparison.FORMATS:

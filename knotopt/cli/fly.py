@@ -26,8 +26,8 @@ from knotopt.cli.output import (
 if TYPE_CHECKING:
     from knotopt.flight.plan import FlightPlan
     from knotopt.flight.record import Disturbance
-    from knotopt.flight.result import FlightResult
-    from knotopt.flight.tried import Asked
+    from knotopt.mission.alternatives import Asked
+    from knotopt.mission.result import FlightResult
     from knotopt.supports.support_set import SupportSet
 
 RUNS = 5
@@ -127,12 +127,12 @@ def fly(
     from knotopt.api import FLOWN
     from knotopt.catalogue.lookup import find_knot
     from knotopt.files import check_folder
-    from knotopt.flight.folder import why_kept
     from knotopt.flight.limits import ROOM, FlightLimits
     from knotopt.flight.planner import SCHEDULES
+    from knotopt.mission.folder import why_kept
     from knotopt.path.world import World
-    from knotopt.supports.choice import equally_small
     from knotopt.supports.requirements import Requirements
+    from knotopt.supports.selection import equally_small
 
     if schedule not in SCHEDULES:
         raise typer.BadParameter(f"is one of {', '.join(SCHEDULES)}", param_hint="--schedule")
@@ -220,7 +220,7 @@ def _check_physics() -> None:
 def _planned(name: str, sets: Iterable[SupportSet], asked: Asked) -> FlightResult:
     """The flight by the model of laid cable."""
     from knotopt.flight.planner import plan_flight
-    from knotopt.flight.tried import plan_first
+    from knotopt.mission.alternatives import plan_first
 
     with _progress("planning"):
         plan = plan_first(name, sets, asked)
@@ -239,8 +239,8 @@ def _flown(
     tighten: float | None,
 ) -> FlightResult:
     """The flight rehearsed, perhaps pulled tight, then flown undisturbed and disturbed."""
-    from knotopt.flight.result import UNDISTURBED, examined, flown_content
-    from knotopt.flight.tried import rehearse_first
+    from knotopt.mission.alternatives import rehearse_first
+    from knotopt.mission.result import UNDISTURBED, examined, flown_content
     from knotopt.sim.trials import fly_trial, wilson_interval
 
     with _progress("rehearsing") as tell:
@@ -268,7 +268,7 @@ def _flown(
 def _result(plan: FlightPlan, steady: float | None) -> FlightResult:
     from knotopt.export.crazyswarm import export_files
     from knotopt.flight.examine import examine_plan
-    from knotopt.flight.result import FlightResult
+    from knotopt.mission.result import FlightResult
 
     exports, fit = export_files(plan)
     return FlightResult(plan, examine_plan(plan), exports, fit, steady)
@@ -278,7 +278,7 @@ def _write(result: FlightResult, out: Path) -> str:
     """Write the folder; return what could not be part of it."""
     from knotopt.errors import MissingExtraError
     from knotopt.files import write_folder
-    from knotopt.flight.folder import flight_files, flight_pictures, why_kept
+    from knotopt.mission.folder import flight_files, flight_pictures, why_kept
 
     files, missing = flight_files(result), ""
     try:

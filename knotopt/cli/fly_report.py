@@ -9,7 +9,7 @@ from knotopt.cli.output import print_facts, print_table
 
 if TYPE_CHECKING:
     from knotopt.flight.examine import Examination
-    from knotopt.flight.result import FlightResult, Flown
+    from knotopt.mission.result import FlightResult, Flown
 
 HEADS = ("planned", "result", "what happened")
 

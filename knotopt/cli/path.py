@@ -104,8 +104,8 @@ def path(
     from knotopt.path.optimise import optimise_path
     from knotopt.path.relaxation import relaxed_path
     from knotopt.path.requirements import PathRequirements
-    from knotopt.supports.choice import choose_supports
     from knotopt.supports.requirements import Requirements
+    from knotopt.supports.selection import choose_supports
 
     if method not in METHODS:
         raise typer.BadParameter(f"is one of {', '.join(METHODS)}", param_hint="--method")

@@ -59,9 +59,9 @@ def prove(
     Example: knotopt prove 8_19 --out 8_19.jsonl
     """
     from knotopt.cable.cut import Cut
-    from knotopt.certificate import Method
-    from knotopt.certificate import prove as prove_knot
     from knotopt.files import resumable_lines
+    from knotopt.supports.certificate import Method
+    from knotopt.supports.certificate import prove as prove_knot
     from knotopt.supports.requirements import Requirements
 
     found = find_knots(knots, catalogue=catalogue)

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from formulations.solution import Limits
     from knotopt.catalogue.lookup import NamedDiagram
-    from knotopt.supports.flown import CutOff, FlownResult
+    from knotopt.rehearsal.cut_off import CutOff, FlownResult
     from knotopt.supports.requirements import Requirements
 
 
@@ -69,20 +69,20 @@ def fly_sets(
     from knotopt.cable.cut import Cut
     from knotopt.errors import OutputError
     from knotopt.files import resumable_lines, write_atomically
-    from knotopt.supports import flown
+    from knotopt.rehearsal import cut_off
 
     out = tests.out
     if out is not None and out.suffix.lower() != ".json":
         raise OutputError(f"{out}: the answer is written as .json")
-    flown.require_simulation()
-    noise = flown.NOISE if tests.noise is None else tests.noise
-    trials = flown.TRIALS if tests.trials is None else tests.trials
+    cut_off.require_simulation()
+    noise = cut_off.NOISE if tests.noise is None else tests.noise
+    trials = cut_off.TRIALS if tests.trials is None else tests.trials
 
     def search(
         known: tuple[CutOff, ...], keep: Callable[[CutOff], None] | None = None
     ) -> FlownResult:
         with ExitStack() as stack:
-            return flown.solve_flown(
+            return cut_off.solve_flown(
                 named.name,
                 named.diagram,
                 asked,
@@ -110,7 +110,7 @@ def fly_sets(
     done = 0
     try:
         with resumable_lines(out, run_header("solve", settings, [named]), text) as lines:
-            known = tuple(flown.CutOff.from_json(json.loads(line)) for line in lines.done)
+            known = tuple(cut_off.CutOff.from_json(json.loads(line)) for line in lines.done)
             done = len(known)
             if known:
                 _note(f"cut off before, from {out}.partial: {_sets(done)}")
@@ -121,7 +121,7 @@ def fly_sets(
                 done += 1
 
             found.append(search(known, keep))
-            if found[0].status in (flown.FlownStatus.BUDGET, flown.FlownStatus.UNKNOWN):
+            if found[0].status in (cut_off.FlownStatus.BUDGET, cut_off.FlownStatus.UNKNOWN):
                 raise _UnfinishedError
     except _UnfinishedError:
         write_atomically(out, text([]))

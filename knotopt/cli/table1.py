@@ -30,7 +30,7 @@ def table1(
     Example: knotopt table1 --out paper_results
     """
     from knotopt.path import measures
-    from knotopt.table1 import (
+    from knotopt.tables.table1 import (
         HEADS,
         NOTE,
         PATH_HEADS,

@@ -16,7 +16,7 @@ from knotopt.cli.output import (
 )
 
 if TYPE_CHECKING:
-    from knotopt.topology.flown import LeaderFaces
+    from knotopt.flight.leader_plan import LeaderFaces
     from knotopt.topology.goals import Goal
     from knotopt.topology.plan import Plan, PlanGraph
 
@@ -72,7 +72,7 @@ def topology(
 
     Exit status 1 if there is none. Example: knotopt topology 3_1 --plot plans.png
     """
-    from knotopt.topology.flown import laid_plan, leader_faces
+    from knotopt.flight.leader_plan import laid_plan, leader_faces
     from knotopt.topology.goals import read_goal
     from knotopt.topology.plan import plan_graph
 

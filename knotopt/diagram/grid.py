@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from knotopt.arrays import BoolArray
 from knotopt.errors import GridError
 
 Mark = tuple[int, int]  # [column, row], 1-based
@@ -196,7 +197,7 @@ class GridDiagram:
         return tuple(path)
 
     @cached_property
-    def crossing_cells(self) -> NDArray[np.bool_]:
+    def crossing_cells(self) -> BoolArray:
         """Where a column crosses a row, shape (N, N), indexed [column - 1, row - 1]."""
         lines = np.arange(1, self.size + 1)
         marks = np.array(self.marks)
@@ -205,7 +206,7 @@ class GridDiagram:
         low_column, high_column = by_row[0::2], by_row[1::2]
         column_passes = (low_row[:, None] < lines) & (lines < high_row[:, None])
         row_passes = (low_column < lines[:, None]) & (lines[:, None] < high_column)
-        crossed: NDArray[np.bool_] = column_passes & row_passes
+        crossed: BoolArray = column_passes & row_passes
         crossed.setflags(write=False)
         return crossed
 

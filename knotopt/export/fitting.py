@@ -10,8 +10,8 @@ from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from knotopt.arrays import FloatArray
 from knotopt.export.polynomials import DEGREE, MOST_PIECES, Polynomials, Trajectory
 from knotopt.export.stretch import SHORTEST, TOLERANCE, Stretch
 from knotopt.export.waypoints import YAW
@@ -26,8 +26,6 @@ STAY = 1e-3  # [m]
 HOVER = 1.0  # a shorter hover is no piece of its own [s]
 MARGIN = 0.4  # of hovering that a moving piece may use to set off smoothly [s]
 REST = 0.5  # of all robots, in which a part can end [s]
-
-FloatArray = NDArray[np.float64]
 
 
 def fit_trajectories(plan: FlightPlan) -> tuple[Trajectory, ...]:

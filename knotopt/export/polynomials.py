@@ -16,17 +16,15 @@ from math import factorial
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import BSpline, PPoly
 
+from knotopt.arrays import FloatArray
 from knotopt.errors import FileFormatError
 
 DEGREE = 7
 MOST_PIECES = 31
 AXES = ("x", "y", "z", "yaw")
 HEADER = ",".join(["Duration", *(f"{axis}^{k}" for axis in AXES for k in range(DEGREE + 1))])
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from knotopt.arrays import FloatArray
 from knotopt.export.polynomials import MOST_PIECES, Trajectory
 from knotopt.export.stretch import TOLERANCE
 from knotopt.flight.plan import FlightPlan, PlannedCrossing
@@ -17,8 +17,6 @@ SHARE = 0.01  # of a limit by which it may be missed: a plan may keep it to the 
 JUMPS = (1e-6, 1e-5, 1e-4, 1e-3)  # that are rounding: of position, velocity, acceleration, jerk
 NEAR = 1.0  # to the planned time of a crossing, within which its place is passed [s]
 NAMES = ("position", "velocity", "acceleration", "jerk")
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

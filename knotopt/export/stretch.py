@@ -12,11 +12,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import BSpline
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import spsolve
 
+from knotopt.arrays import FloatArray
 from knotopt.export.polynomials import DEGREE
 from knotopt.flight.limits import FlightLimits
 
@@ -31,8 +31,6 @@ KEPT = 0.99  # share of the largest speed and acceleration to which splines are 
 PULL = {1: 100.0, 2: 0.3}  # how hard that is, by the derivative
 SPENT = 12  # pieces at most on keeping them
 ROUNDS = 24  # of moving breakpoints, of weighing, and of pulling
-
-FloatArray = NDArray[np.float64]
 
 
 class Stretch:

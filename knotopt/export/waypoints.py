@@ -6,15 +6,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from knotopt.arrays import FloatArray
 from knotopt.errors import FileFormatError
 from knotopt.flight.plan import FlightPlan
 
 HEADER = "t,robot,x,y,z,yaw"
 YAW = 0.0  # the heading of every robot at every time [rad]: a cable hangs from it all the same
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,8 @@ from fractions import Fraction
 
 import numpy as np
 
-from knotopt.flight.plan import FlightPlan, FloatArray, PlannedCrossing
+from knotopt.arrays import FloatArray
+from knotopt.flight.plan import FlightPlan, PlannedCrossing
 from knotopt.flight.record import FlightRecord
 from knotopt.verify.flight import leader_events, nearest_approaches
 from knotopt.verify.flight_limits import LimitsReport, check_limits

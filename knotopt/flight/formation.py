@@ -10,14 +10,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from knotopt.arrays import FloatArray
 from knotopt.flight.limits import FlightLimits
 from knotopt.flight.route import Route
 from knotopt.path.world import World
-
-FloatArray = NDArray[np.float64]
 
 NODES = 0.03  # between nodes of the path coordinate [m]
 FINE = 0.005  # between points to measure its length by [m]

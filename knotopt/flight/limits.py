@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from knotopt.checks import check_not_negative
 from knotopt.errors import RequirementError
 from knotopt.path.world import World
+from knotopt.ranges import check_not_negative
 
 ROOM = World(step=0.5, altitude=2.2, floor=0.2, ceiling=3.2)
 """The room that flights are planned for unless another is given."""

@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.distance import pdist
 
+from knotopt.arrays import FloatArray
 from knotopt.cable.cable import Cable
 from knotopt.flight.limits import FlightLimits
 from knotopt.path.world import World
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

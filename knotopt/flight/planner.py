@@ -6,14 +6,14 @@ from copy import copy
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.distance import pdist
 
 from formulations.schedule import Schedule, fastest_schedule, steady_schedule
+from knotopt.arrays import FloatArray
 from knotopt.cable.cable import Cable
 from knotopt.errors import RequirementError
 from knotopt.flight.formation import Formation
-from knotopt.flight.laid import Laid, hanging_cable
+from knotopt.flight.laid_cable import Laid, hanging_cable
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan, PlannedCrossing
 from knotopt.flight.route import SAMPLE, Passage, SpanRoute, SpanShape, build_route
@@ -21,8 +21,6 @@ from knotopt.flight.router import Crossed, Router, RouteShape, Way
 from knotopt.flight.word import span_words
 from knotopt.path.mesh import robot_times
 from knotopt.path.world import World
-
-FloatArray = NDArray[np.float64]
 
 INTERVAL = 0.05  # between samples of a plan [s]
 MARGIN = 0.95  # share of speed and acceleration that a schedule uses

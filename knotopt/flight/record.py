@@ -5,14 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
-from knotopt.checks import check_not_negative
+from knotopt.arrays import FloatArray, IntArray
 from knotopt.errors import RequirementError
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+from knotopt.ranges import check_not_negative
 
 
 @dataclass(frozen=True)

@@ -11,13 +11,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import diags_array, eye_array
 from scipy.sparse.linalg import spsolve
 
+from knotopt.arrays import FloatArray
 from knotopt.flight.router import Gate, RouteShape
-
-FloatArray = NDArray[np.float64]
 
 SAMPLE = 0.04  # between points of a route while it is smoothed [grid steps]
 SMOOTHING = 0.3  # length over which corners are rounded [grid steps]

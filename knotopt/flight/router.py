@@ -13,14 +13,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
+from knotopt.arrays import FloatArray, IntArray
 from knotopt.flight.word import Letter
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 LATTICE = 0.2  # between nodes
 MARGIN = 2.5  # free room around everything

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from knotopt.arrays import FloatArray
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import Cut
 from knotopt.diagram.grid import GridDiagram
@@ -24,7 +24,6 @@ VERSION = 2
 DIGITS = 5  # of positions, after the point [m]
 UNEVEN = 1e-6  # by which two intervals between samples may differ [s]
 
-FloatArray = NDArray[np.float64]
 Numbers = TypeVar("Numbers", World, FlightLimits)
 
 

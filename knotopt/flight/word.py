@@ -17,13 +17,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from knotopt.arrays import FloatArray, IntArray
 from knotopt.cable.cable import Cable
 from knotopt.path.mesh import robot_times
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 NUDGE = np.array([1.7e-6, 1.1e-6])  # off lattice points, through which straight spans may pass
 

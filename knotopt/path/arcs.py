@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from knotopt.arrays import FloatArray
 from knotopt.cable.cable import Cable
 from knotopt.path.curve import Curve, length_along
 from knotopt.path.heights import height_arcs
-from knotopt.path.mesh import FloatArray, between, robot_times
+from knotopt.path.mesh import between, robot_times
 from knotopt.verify.crossings import CurveCrossings, curve_crossings
 
 SPACING = 0.5  # of the points that the curve goes through, at most [grid steps]

@@ -8,8 +8,8 @@ from functools import cached_property
 import numpy as np
 from scipy.interpolate import CubicSpline, PPoly
 
+from knotopt.arrays import FloatArray
 from knotopt.errors import RequirementError
-from knotopt.path.mesh import FloatArray
 
 GAUSS_NODES, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(5)
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from knotopt.cable.cable import IntArray
-from knotopt.path.mesh import FloatArray
+from knotopt.arrays import FloatArray, IntArray
 
 
 def height_arcs(

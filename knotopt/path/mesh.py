@@ -11,12 +11,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from knotopt.cable.cable import BoolArray, Cable, IntArray
+from knotopt.arrays import BoolArray, FloatArray, IntArray
+from knotopt.cable.cable import Cable
 from knotopt.errors import RequirementError
 
-FloatArray = NDArray[np.float64]
 MARGIN = 2.0  # from the grid to its frame [grid steps]
 FRAME = 4  # vertices of the frame
 

@@ -16,11 +16,12 @@ import numpy as np
 
 from formulations.ipopt import PathStatus, Violation, solve
 from formulations.path import Bounds, PathProgram, ProgramError, Weights, doubled_areas
-from knotopt.cable.cable import Cable, IntArray
+from knotopt.arrays import FloatArray, IntArray
+from knotopt.cable.cable import Cable
 from knotopt.errors import RequirementError
 from knotopt.path.curve import Curve
 from knotopt.path.heights import height_arcs
-from knotopt.path.mesh import FloatArray, Mesh, lay_mesh, robot_times
+from knotopt.path.mesh import Mesh, lay_mesh, robot_times
 from knotopt.path.pairs import arc_ends, crossing_corners, robot_turns, strand_pairs
 from knotopt.path.remesh import remesh
 from knotopt.path.requirements import PathRequirements

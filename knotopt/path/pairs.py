@@ -7,8 +7,8 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import cKDTree
 
-from knotopt.cable.cable import IntArray
-from knotopt.path.mesh import FRAME, FloatArray, Mesh
+from knotopt.arrays import FloatArray, IntArray
+from knotopt.path.mesh import FRAME, Mesh
 from knotopt.path.threads import segment_distances
 
 NEAR = 0.25  # distances larger than need be by so much are left to the next round [grid steps]

@@ -15,10 +15,11 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from formulations.ipopt import PathStatus
-from knotopt.cable.cable import BoolArray, Cable
+from knotopt.arrays import BoolArray, FloatArray
+from knotopt.cable.cable import Cable
 from knotopt.errors import RequirementError
 from knotopt.path.arcs import with_arcs
-from knotopt.path.mesh import FloatArray, between, robot_times
+from knotopt.path.mesh import between, robot_times
 from knotopt.path.requirements import PathRequirements
 from knotopt.path.result import PathResult, examine, unmet
 

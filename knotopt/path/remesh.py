@@ -11,8 +11,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from knotopt.cable.cable import BoolArray, IntArray
-from knotopt.path.mesh import FRAME, FloatArray, Mesh
+from knotopt.arrays import BoolArray, FloatArray, IntArray
+from knotopt.path.mesh import FRAME, Mesh
 
 STRAIGHT = np.radians(20)  # a vertex that turns less may go
 SHARP = np.radians(35)  # segments beside a vertex that turns more are halved

@@ -8,9 +8,10 @@ from functools import cached_property
 import numpy as np
 
 from formulations.ipopt import PathStatus
+from knotopt.arrays import FloatArray
 from knotopt.cable.cable import Cable
 from knotopt.path.curve import Curve, length_along
-from knotopt.path.mesh import FloatArray, robot_times
+from knotopt.path.mesh import robot_times
 from knotopt.path.requirements import PathRequirements
 from knotopt.path.taut import taut_length
 from knotopt.supports.minimal import defined_regions

@@ -17,8 +17,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from knotopt.cable.cable import Cable, IntArray
-from knotopt.path.mesh import FloatArray, robot_times
+from knotopt.arrays import FloatArray, IntArray
+from knotopt.cable.cable import Cable
+from knotopt.path.mesh import robot_times
 from knotopt.path.triangulation import triangulate
 
 Point = tuple[float, float]

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from knotopt.cable.cable import BoolArray, IntArray
-from knotopt.path.mesh import FloatArray, Mesh
+from knotopt.arrays import BoolArray, FloatArray, IntArray
+from knotopt.path.mesh import Mesh
 from knotopt.supports.regions import Regions
 from knotopt.supports.threading import Threading, threading_points
 

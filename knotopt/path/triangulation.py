@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 import pythoncdt
 
-from knotopt.cable.cable import IntArray
-from knotopt.path.mesh import FloatArray
+from knotopt.arrays import FloatArray, IntArray
 
 
 def triangulate(positions: FloatArray, segments: IntArray) -> IntArray:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
 
-from knotopt.checks import check_not_negative
 from knotopt.errors import RequirementError
 from knotopt.path.curve import Curve
 from knotopt.path.requirements import LARGEST, PathRequirements
 from knotopt.path.result import PathResult
+from knotopt.ranges import check_not_negative
 
 
 @dataclass(frozen=True)

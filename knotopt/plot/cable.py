@@ -17,7 +17,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 from matplotlib.patheffects import withStroke
 
-from knotopt.cable.cable import BoolArray, Cable, IntArray
+from knotopt.arrays import BoolArray, IntArray
+from knotopt.cable.cable import Cable
 from knotopt.supports.regions import Regions
 
 CABLE_COLOUR = "#222222"

@@ -9,16 +9,14 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
+from knotopt.arrays import FloatArray
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.record import FlightRecord
 from knotopt.path.curve import length_along
 from knotopt.plot.cable import CABLE_COLOUR, HALO, LIFTING_COLOUR, SUPPORT_COLOUR
 from knotopt.plot.figures import LEGEND, PANEL
-from knotopt.report.colours import ramp
-
-FloatArray = NDArray[np.float64]
+from knotopt.viewer.colours import ramp
 
 OVER_COLOUR, UNDER_COLOUR = "#009E73", "#CC79A7"
 ROUTE_COLOUR = "#999999"

@@ -8,11 +8,9 @@ doi:10.1007/BF01245096), so Newton's method finds the radii.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
-IntArray = NDArray[np.int64]
+from knotopt.arrays import BoolArray, ComplexArray, FloatArray, IntArray
+
 Triangle = tuple[int, int, int]
 
 ACCURACY = 1e-10  # of the angles around a vertex [rad]
@@ -66,7 +64,7 @@ def circle_packing(
     return centres, radii
 
 
-def _radii(corners: IntArray, wanted: FloatArray, free: NDArray[np.bool_]) -> FloatArray:
+def _radii(corners: IntArray, wanted: FloatArray, free: BoolArray) -> FloatArray:
     """Radii for which the angles [rad] around the free vertices are as wanted; the others' are 1.
 
     The weighted Laplacian of the graph is the convex function's second derivative.

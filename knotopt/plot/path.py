@@ -10,8 +10,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from mpl_toolkits.mplot3d import Axes3D
 
+from knotopt.arrays import FloatArray
 from knotopt.path.curve import length_along
-from knotopt.path.mesh import FloatArray
 from knotopt.path.result import PathResult
 from knotopt.plot.cable import CABLE_COLOUR, HALO, LIFTING_COLOUR, SUPPORT_COLOUR
 

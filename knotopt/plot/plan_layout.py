@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextPath
 
+from knotopt.arrays import FloatArray
 from knotopt.plot.layers import Vertex, layered
-from knotopt.plot.packing import FloatArray
 from knotopt.topology.actions import Action
 from knotopt.topology.plan import PlanGraph
 from knotopt.topology.state import RopeState

@@ -15,9 +15,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
+from knotopt.arrays import FloatArray
 from knotopt.path.curve import length_along
 from knotopt.plot.cable import CABLE_COLOUR
-from knotopt.plot.packing import FloatArray, Triangle, circle_packing
+from knotopt.plot.packing import Triangle, circle_packing
 from knotopt.topology.extract import extract_state
 from knotopt.topology.state import RopeState
 

@@ -11,10 +11,10 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch, FancyBboxPatch
 from matplotlib.path import Path
 
+from knotopt.arrays import FloatArray
 from knotopt.errors import KnotoptError
 from knotopt.plot.cable import CABLE_COLOUR
 from knotopt.plot.figures import LEGEND
-from knotopt.plot.packing import FloatArray
 from knotopt.plot.plan_layout import (
     AIR,
     FONT,

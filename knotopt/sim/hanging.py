@@ -9,13 +9,10 @@ than its lowest link has no such h > 0: there its sides lean outwards instead.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from knotopt.arrays import FloatArray, IntArray
 from knotopt.errors import RequirementError
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 LEAST_SPACING = 5.0  # of robots in plan [radii of the cable]
 ASIDE = 1.2  # of a robot that the cable starts down from it, at least [radii of the cable]

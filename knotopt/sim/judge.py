@@ -15,6 +15,7 @@ from enum import StrEnum
 
 import numpy as np
 
+from knotopt.arrays import FloatArray
 from knotopt.cable.alexander import alexander_from_gauss, alexander_polynomial, format_polynomial
 from knotopt.cable.cable import Cable
 from knotopt.catalogue.knots import shipped_knots
@@ -22,7 +23,6 @@ from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import RequirementError
 from knotopt.flight.record import FlightRecord
 from knotopt.sim.material import Material
-from knotopt.sim.model import FloatArray
 from knotopt.verify.crossings import curve_crossings
 
 SOUND = 0.4  # share of two radii under which strands may have passed through each other

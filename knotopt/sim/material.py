@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
-from knotopt.checks import check_not_negative
 from knotopt.errors import RequirementError
+from knotopt.ranges import check_not_negative
 
 
 @dataclass(frozen=True)

@@ -12,16 +12,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from knotopt.arrays import FloatArray, IntArray
 from knotopt.errors import MissingExtraError, RequirementError
 from knotopt.sim.material import Material
 
 if TYPE_CHECKING:
     import mujoco
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 GRAVITY = 9.81
 LEAST_EDGES = 4  # of the cable between two robots

@@ -13,12 +13,13 @@ from typing import Any
 
 import numpy as np
 
+from knotopt.arrays import FloatArray, IntArray
 from knotopt.errors import RequirementError
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.record import Disturbance, FlightRecord
 from knotopt.sim.hanging import cable_at_rest, check_start
 from knotopt.sim.material import Material
-from knotopt.sim.model import FloatArray, IntArray, cable_model
+from knotopt.sim.model import cable_model
 
 DT = 1 / 200  # of the physics [s]
 CONTROL = 0.02  # between commands to the robots [s]

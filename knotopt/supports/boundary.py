@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from knotopt.cable.cable import BoolArray, Cable, IntArray
+from knotopt.arrays import BoolArray, IntArray
+from knotopt.cable.cable import Cable
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from knotopt.cable.cable import BoolArray, Cable
+from knotopt.arrays import BoolArray, IntArray
+from knotopt.cable.cable import Cable
 from knotopt.errors import GridError
 from knotopt.supports.boundary import Boundaries
 
@@ -56,7 +57,7 @@ def unpack(packed: NDArray[np.uint8], size: int) -> BoolArray:
     return bits.reshape(*packed.shape[:-1], size, size)
 
 
-def layer_count(packed: NDArray[np.uint8], size: int) -> NDArray[np.int64]:
+def layer_count(packed: NDArray[np.uint8], size: int) -> IntArray:
     """How many of the given regions enclose each cell, shape (N, N) (section III.A.2)."""
     layers = np.zeros((size, size), dtype=np.int64)
     batch = max(1, _CELLS_AT_ONCE // size**2)

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from knotopt.cable.cable import Cable, IntArray
+from knotopt.arrays import IntArray
+from knotopt.cable.cable import Cable
 from knotopt.cable.cut import Cut, outer_cuts
 from knotopt.diagram.grid import GridDiagram
 from knotopt.supports.regions import Regions

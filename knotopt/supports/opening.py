@@ -14,15 +14,13 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from formulations.opening import OpeningProgram
 from formulations.team import Team
-from knotopt.cable.cable import Cable, IntArray
+from knotopt.arrays import FloatArray, IntArray
+from knotopt.cable.cable import Cable
 from knotopt.supports.regions import Regions
 from knotopt.supports.threading import Threading, threading_points
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,7 +14,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from knotopt.cable.cable import BoolArray, Cable, IntArray, frozen
+from knotopt.arrays import BoolArray, IntArray
+from knotopt.cable.cable import Cable, frozen
 from knotopt.supports.boundary import Boundaries, find_boundaries
 from knotopt.supports.interior import fill_interiors, layer_count, unpack
 

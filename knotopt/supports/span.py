@@ -28,10 +28,11 @@ import numpy as np
 
 from formulations.span import Conflict, SpanProgram
 from formulations.team import Team
-from knotopt.cable.cable import BoolArray, Cable, IntArray
+from knotopt.arrays import BoolArray, FloatArray, IntArray
+from knotopt.cable.cable import Cable
 from knotopt.errors import RequirementError
-from knotopt.supports.moved import Chords, between, distance_to, meet, ray_to
-from knotopt.supports.opening import FloatArray, path_turns, stretch_margins
+from knotopt.supports.chords import Chords, between, distance_to, meet, ray_to
+from knotopt.supports.opening import path_turns, stretch_margins
 from knotopt.supports.regions import Regions
 from knotopt.supports.threading import Threading, threading_points
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from formulations.instance import FloatArray
 from formulations.team import ReachTarget, Team
+from knotopt.arrays import FloatArray
 from knotopt.cable.cable import Cable
 from knotopt.supports.regions import Regions
 from knotopt.supports.requirements import Formulation, Requirements

@@ -13,7 +13,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from knotopt.cable.cable import IntArray
+from knotopt.arrays import IntArray
 from knotopt.supports.regions import Regions
 
 

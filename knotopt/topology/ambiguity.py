@@ -16,7 +16,8 @@ from itertools import product
 
 import numpy as np
 
-from knotopt.topology.crossings import Contact, Crossings, FloatArray, IntArray, Projection
+from knotopt.arrays import FloatArray, IntArray
+from knotopt.topology.crossings import Contact, Crossings, Projection
 
 Pair = tuple[int, int]
 

@@ -12,11 +12,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.intp]
-BoolArray = NDArray[np.bool_]
+from knotopt.arrays import BoolArray, FloatArray, IndexArray
 
 ROUNDING = 4e-16  # of a 2 x 2 determinant of differences, relative to its two products
 BLOCK = 1024  # segments whose boxes are compared at once with those of all others
@@ -43,7 +40,7 @@ class Projection:
     end: FloatArray
     low: FloatArray
     high: FloatArray
-    segment: IntArray
+    segment: IndexArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,8 +60,8 @@ class Crossings:
         Whether segment j's direction points to the left of segment i's.
     """
 
-    i: IntArray
-    j: IntArray
+    i: IndexArray
+    j: IndexArray
     u: FloatArray
     v: FloatArray
     gap: FloatArray
@@ -156,7 +153,7 @@ def crossings_and_contacts(
     return Crossings(i, j, u, v, gap, touches, side[1][crosses]), contacts
 
 
-def _pairs(flat: FloatArray, reach: float) -> tuple[IntArray, IntArray]:
+def _pairs(flat: FloatArray, reach: float) -> tuple[IndexArray, IndexArray]:
     """Pairs of segments i < j whose boxes come within reach."""
     low = np.minimum(flat[:-1], flat[1:])
     high = np.maximum(flat[:-1], flat[1:]) + reach

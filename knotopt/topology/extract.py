@@ -13,16 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from knotopt.arrays import FloatArray, IntArray
 from knotopt.errors import KnotoptError
 from knotopt.topology.ambiguity import Ambiguity, Reason, ambiguities
-from knotopt.topology.crossings import (
-    Crossings,
-    FloatArray,
-    IntArray,
-    Projection,
-    crossings_and_contacts,
-    projection,
-)
+from knotopt.topology.crossings import Crossings, Projection, crossings_and_contacts, projection
 from knotopt.topology.state import RopeState
 
 TOLERANCE = 1e-6

@@ -16,8 +16,9 @@ from dataclasses import dataclass
 from operator import index
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from knotopt.arrays import IntArray
 from knotopt.errors import KnotoptError
 from knotopt.topology.faces import Code, face_cycles, lies_in_the_plane, prefix
 
@@ -164,7 +165,7 @@ class RopeState:
         return len(self.code) // 2
 
     @property
-    def matrix(self) -> NDArray[np.int64]:
+    def matrix(self) -> IntArray:
         """Shape (4, 2 n): visit and partner visit, from 1; +1 over, -1 under; sign of the crossing.
 
         Examples

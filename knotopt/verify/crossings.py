@@ -12,11 +12,10 @@ from fractions import Fraction
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
+from knotopt.arrays import FloatArray, IntArray
 from knotopt.verify.regions import Cell, lay
 
-FloatArray = NDArray[np.float64]
 UNSURE = 1e-9  # areas below this are computed again, exactly
 
 Visit = tuple[int, bool]  # crossing, numbered as met; whether the curve passes over
@@ -41,13 +40,13 @@ class CurveCrossings:
     second: FloatArray
     point: FloatArray
     gap: FloatArray
-    sign: NDArray[np.int64]
+    sign: IntArray
 
     def __len__(self) -> int:
         return len(self.first)
 
     @property
-    def visits(self) -> tuple[FloatArray, NDArray[np.int64]]:
+    def visits(self) -> tuple[FloatArray, IntArray]:
         """Where along the polyline crossings are visited, in order, and which ones."""
         where = np.concatenate((self.first, self.second))
         order = np.argsort(where)

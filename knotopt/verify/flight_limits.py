@@ -15,9 +15,9 @@ from dataclasses import dataclass, fields
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-FloatArray = NDArray[np.float64]
+from knotopt.arrays import FloatArray
 
 STILL = 1e-3  # a robot that stays within this hovers [m]
 

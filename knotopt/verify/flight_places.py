@@ -14,8 +14,9 @@ from itertools import groupby
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from knotopt.arrays import FloatArray, IntArray
 from knotopt.topology.extract import extract_state
 from knotopt.verify.flight import LeaderEvent
 from knotopt.verify.flight_states import (
@@ -26,9 +27,6 @@ from knotopt.verify.flight_states import (
     state_sequence,
 )
 from knotopt.verify.flight_word import AnyLetter, Letter, reduced_word
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 TOLERANCE = 0.1  # between crossings along the cable whose order is not trusted [grid steps]
 

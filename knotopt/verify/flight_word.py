@@ -12,12 +12,12 @@ from dataclasses import dataclass
 from typing import Literal, Protocol, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
+from knotopt.arrays import FloatArray
 from knotopt.verify.flight import LeaderEvent
 
-FloatArray = NDArray[np.float64]
 Kind = Literal["as planned", "wrong height", "wrong way", "missing", "extra"]
 
 OTHER_SPAN = 0.01  # what a crossing in another span of the flight costs beside one that is missing

@@ -14,18 +14,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse.csgraph import csgraph_from_dense, dijkstra
 from scipy.spatial import cKDTree
 
+from knotopt.arrays import FloatArray, IntArray
 from knotopt.verify.alexander import alexander_values
-from knotopt.verify.crossings import (
-    CurveCrossings,
-    FloatArray,
-    Visit,
-    curve_crossings,
-    grid_code,
-)
+from knotopt.verify.crossings import CurveCrossings, Visit, curve_crossings, grid_code
 from knotopt.verify.regions import Cell, DefinedRegion, lay
 
 STEP = 0.02  # between samples of a path [grid steps]
@@ -233,7 +227,7 @@ class _Measured:
         return np.concatenate(([0], np.cumsum(steps)))
 
     @cached_property
-    def visits(self) -> tuple[FloatArray, NDArray[np.int64]]:
+    def visits(self) -> tuple[FloatArray, IntArray]:
         """Length in plan up to each crossing visit, in order, and which crossing it is."""
         where, which = self.crossings.visits
         return np.interp(where, np.arange(len(self.along)), self.along), which
@@ -280,7 +274,7 @@ class _Measured:
         ways: FloatArray = dijkstra(csgraph_from_dense(arcs, null_value=np.inf), directed=False)
         return ways
 
-    def _way(self, i: NDArray[np.int64], j: NDArray[np.int64]) -> FloatArray:
+    def _way(self, i: IntArray, j: IntArray) -> FloatArray:
         """Shortest way between samples along the path, changing strands at crossings."""
         at, which = self.visits
         way: FloatArray = np.abs(self.along[i] - self.along[j])
@@ -333,7 +327,7 @@ class _Measured:
                     least, narrowest = room, region.name
         return least, narrowest
 
-    def _between(self, start: float, end: float) -> NDArray[np.int64]:
+    def _between(self, start: float, end: float) -> IntArray:
         """The samples from a length in plan to another."""
         low, high = np.searchsorted(self.along, [start, end])
         return np.arange(low, max(high, low + 1))

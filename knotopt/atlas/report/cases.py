@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from knotopt.arrays import FloatArray
 from knotopt.atlas.report.document import NONE, Block, Picture, Section, table
 from knotopt.atlas.report.heuristic import difference
 from knotopt.atlas.report.numbers import whole
-from knotopt.atlas.report.results import FloatArray, Results, Supports
+from knotopt.atlas.report.results import Results, Supports
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import OUTER_CUTS
 

@@ -10,10 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from knotopt.arrays import FloatArray
 from knotopt.atlas.report.heuristic import classes, difference
 from knotopt.atlas.report.invariants import Invariants
 from knotopt.atlas.report.relations import ARC, invariant_columns
-from knotopt.atlas.report.results import FloatArray, Results
+from knotopt.atlas.report.results import Results
 from knotopt.atlas.report.robots import named_groups
 from knotopt.plot.figures import PANEL
 

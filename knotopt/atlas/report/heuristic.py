@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from knotopt.arrays import BoolArray, FloatArray, IntArray
 from knotopt.atlas.report.document import Block, Picture, Section, Table, table
 from knotopt.atlas.report.numbers import largest, mean, percent
-from knotopt.atlas.report.results import BoolArray, FloatArray, Results
-from knotopt.atlas.report.robots import Indices, named_groups
+from knotopt.atlas.report.results import Results
+from knotopt.atlas.report.robots import named_groups
 
 
 def heuristic_section(results: Results) -> Section:
@@ -53,7 +54,7 @@ def class_table(results: Results) -> Table:
     sorted_out, less = classes(results), difference(results)
     is_open, below = results.holds("lcf_open"), sorted_out["fewer than any open"]
 
-    def cells(knots: Indices) -> list[str]:
+    def cells(knots: IntArray) -> list[str]:
         excess = less[knots][is_open[knots]]
         deficit = -less[knots][below[knots]]
         return [

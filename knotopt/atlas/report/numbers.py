@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from knotopt.arrays import FloatArray
 from knotopt.atlas.report.document import NONE
-from knotopt.atlas.report.results import FloatArray
 
 
 def mean(values: ArrayLike, digits: int = 2) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from html import escape
 
 from knotopt.atlas.report.document import Block, Document, Picture, Table, pieces
-from knotopt.report.parts import digest, part
+from knotopt.viewer.parts import digest, part
 
 
 def page(document: Document, pictures: Mapping[str, bytes]) -> str:

@@ -7,10 +7,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from scipy.stats import rankdata
 
+from knotopt.arrays import FloatArray
 from knotopt.atlas.report.document import Block, Picture, Section, Table, table
 from knotopt.atlas.report.invariants import Invariants
 from knotopt.atlas.report.numbers import signed
-from knotopt.atlas.report.results import FloatArray, Results
+from knotopt.atlas.report.results import Results
 
 ARC, CROSSINGS = "arc index", "crossing number"
 _MEANING = (

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 import pyarrow as pa
-from numpy.typing import NDArray
 
+from knotopt.arrays import BoolArray, FloatArray, IntArray
 from knotopt.atlas.schema import (
     ATLAS,
     FLIGHT_TIMES,
@@ -27,8 +27,6 @@ from knotopt.atlas.store import read_manifest, read_rows
 from knotopt.cable.cut import OUTER_CUTS
 from knotopt.errors import OutputError
 
-FloatArray = NDArray[np.float64]
-BoolArray = NDArray[np.bool_]
 Supports = tuple[int, ...]
 Row = dict[str, Any]
 
@@ -117,7 +115,7 @@ class Results:
         return proven
 
     @cached_property
-    def crossing_numbers(self) -> dict[int | None, NDArray[np.int64]]:
+    def crossing_numbers(self) -> dict[int | None, IntArray]:
         """Indices of the knots of each crossing number, in order; None where no table says it."""
         numbers = [knot.crossing_number for knot in self.knots]
         order = sorted({n for n in numbers if n is not None})

@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections import Counter
 
 import numpy as np
-from numpy.typing import NDArray
 
+from knotopt.arrays import IntArray
 from knotopt.atlas.report.document import Block, Picture, Section, Table, table
 from knotopt.atlas.report.numbers import mean
 from knotopt.atlas.report.results import Results
-
-Indices = NDArray[np.int64]
 
 
 def robots_section(results: Results) -> Section:
@@ -71,8 +69,8 @@ def distribution_table(results: Results, column: str = "opening_robots") -> Tabl
     )
 
 
-def named_groups(results: Results) -> list[tuple[str, Indices]]:
-    """Indices of the knots of each crossing number, by what it is called, and of all."""
+def named_groups(results: Results) -> list[tuple[str, IntArray]]:
+    """IntArray of the knots of each crossing number, by what it is called, and of all."""
     groups = [
         ("not in a table" if number is None else str(number), knots)
         for number, knots in results.crossing_numbers.items()

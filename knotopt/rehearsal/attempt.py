@@ -1,0 +1,283 @@
+"""One simulated flight that is planned while it is flown, crossing by crossing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from formulations.schedule import Schedule, greedy_schedule
+from knotopt.arrays import FloatArray
+from knotopt.errors import RequirementError
+from knotopt.flight.formation import NODES
+from knotopt.flight.plan import FlightPlan
+from knotopt.flight.planner import INTERVAL, FlightPlanner, kept, sample_times
+from knotopt.flight.route import HeightShape, SpanRoute, SpanShape
+from knotopt.flight.router import Router, RouteShape
+from knotopt.flight.word import Letter
+from knotopt.rehearsal.observer import Observer
+from knotopt.sim.simulation import Checkpoint, Simulation
+from knotopt.verify.flight import leader_events
+from knotopt.verify.flight_word import reduced_word
+
+SHAPES = tuple(
+    SpanShape(RouteShape(run, apart), HeightShape(above, below))
+    for run, apart, above, below in (
+        (0.6, 0.8, 0.6, 0.7),
+        (0.9, 0.8, 0.6, 0.7),
+        (0.9, 1.0, 0.8, 0.4),
+        (1.2, 0.8, 0.6, 0.7),
+        (1.2, 1.2, 0.8, 1.1),
+        (0.4, 0.5, 0.6, 0.4),
+    )
+)
+"""Shapes of a way that are tried, in this order."""
+
+CLOSE = 0.08  # a crossing with a smaller gap may as well have been the other [grid steps]
+TAUT = 0.98  # share of a span's cable that a way may need
+STUCK = 10  # letters that being stuck counts as
+
+
+@dataclass(frozen=True, eq=False)
+class _Leg:
+    """One way on to the next crossing, flown: what was planned, and where that leads."""
+
+    wrong: int
+    near: int
+    finished: bool
+    span: SpanRoute
+    timing: Schedule
+    setpoints: FloatArray
+    checkpoint: Checkpoint
+
+    @property
+    def rank(self) -> tuple[int, int]:
+        """Smaller is better."""
+        return self.wrong, self.near
+
+
+class RehearsedFlight:
+    """A flight under way, from its start.
+
+    Parameters
+    ----------
+    planner : FlightPlanner
+        With routes over all spans; those flown replace them.
+    spare : float array, shape (R - 1,)
+        Cable of each span over what these routes need.
+    shapes : tuple of SpanShape
+        To be tried at every crossing, in order.
+    tell : callable
+        Is told what was flown.
+    """
+
+    def __init__(
+        self,
+        planner: FlightPlanner,
+        spare: FloatArray,
+        shapes: tuple[SpanShape, ...],
+        tell: Callable[[str], None],
+    ) -> None:
+        self.planner, self.shapes, self.tell = planner, shapes, tell
+        planner.frozen = planner.frozen[:0]
+        formation = planner.space_out()
+        self.lengths = planner.cable_lengths(formation) * spare
+        self.along = formation.begin
+        self.first = formation.positions(np.array([self.along]))[0]
+        self.simulation = Simulation(
+            self.first,
+            self.lengths,
+            step=planner.world.step,
+            speed=planner.limits.speed,
+        )
+        self.observer = Observer(planner, self.simulation)
+        self.legs: list[_Leg] = []
+        self.began: list[float] = []
+        self.failed: list[str] = []
+        self.ways = 0
+        self.stuck = False
+
+    def rehearsed(self, name: str, chosen_by: str) -> FlightPlan:
+        """The plan as it was flown, timing included."""
+        limits = self.planner.limits
+        before, after = (
+            int(np.ceil(time / INTERVAL)) for time in (limits.hover_before, limits.hover_after)
+        )
+        flown = np.concatenate((self.first[None], *(leg.setpoints for leg in self.legs)))
+        hover = [np.repeat(flown[:1], before, axis=0), np.repeat(flown[-1:], after, axis=0)]
+        positions = np.concatenate((hover[0], flown, hover[1]))
+        planned = self.planner.plan(name, chosen_by, self._timing(), self.lengths)
+        times = sample_times(len(positions))
+        return replace(planned, schedule="rehearsed", positions=positions, times=times)
+
+    def _timing(self) -> Schedule:
+        """The schedules of all legs, one after the other."""
+        nodes, times, pace, start = [], [], [], 0.0
+        for leg in self.legs:
+            inner = slice(0, -1)
+            nodes.append(leg.timing.nodes[inner])
+            times.append(start + leg.timing.times[inner])
+            pace.append(leg.timing.pace[inner])
+            start += INTERVAL * len(leg.setpoints)
+        last = self.legs[-1].timing
+        return Schedule(
+            np.append(np.concatenate(nodes), last.nodes[-1]),
+            np.append(np.concatenate(times), start),
+            np.append(np.concatenate(pace), last.pace[-1]),
+            False,
+            "rehearsed",
+            0,
+        )
+
+    def fly(self) -> int | None:
+        """Fly all spans; return the one where robots got stuck (1-based), if there is one."""
+        for span in range(1, self.planner.robots):
+            self.fly_span(span)
+            if self.stuck:
+                return span
+        return None
+
+    def fly_span(self, span: int) -> None:
+        """Fly the leader from its stop at robot `span`'s place to the next one."""
+        word = self.planner.words[span - 1]
+        self.began.append(self.simulation.clock)
+        for done in range(len(word) + 1):
+            if not word:
+                leg = self._fly(span, self.planner.spans[span - 1], 0)
+                self._take(leg)
+                return
+            self._next_crossing(span, word, done)
+
+    def _next_crossing(self, span: int, word: tuple[Letter, ...], done: int) -> None:
+        """Fly through gate `done` (from 0) of a span, or from the last one to the next robot."""
+        start, spans = self.simulation.state(), list(self.planner.spans)
+        along = self.along
+        best: _Leg | None = None
+        for route in self._ways_on(span, word, done):
+            self.simulation.restore(start)
+            self.planner.spans[:], self.along = spans, along
+            trial = self._fly(span, route, done + 1)
+            if best is None or trial.rank < best.rank:
+                best = trial
+            if trial.rank == (0, 0):
+                break
+        if best is None:  # no way on was found: what was planned before is flown
+            self.simulation.restore(start)
+            self.planner.spans[:], self.along = spans, along
+            best = self._fly(span, spans[span - 1], done + 1)
+        self.simulation.restore(best.checkpoint)
+        self.planner.spans[span - 1] = best.span
+        self._take(best)
+        name = f"span {span} {word[done]}" if done < len(word) else f"the end of span {span}"
+        if best.wrong:
+            self.failed.append(name)
+        self.tell(f"{name}: {'as planned' if not best.wrong else 'not as planned'}")
+
+    def _take(self, leg: _Leg) -> None:
+        """Make what was flown part of the flight: the route up to here changes no more."""
+        self.legs.append(leg)
+        self.stuck |= not leg.finished
+        self.along = float(leg.timing.nodes[-1])
+        route = self.planner.formation().route
+        self.planner.frozen = route.points[route.along * self.planner.world.step <= self.along]
+
+    def _ways_on(self, span: int, word: tuple[Letter, ...], done: int) -> Iterator[SpanRoute]:
+        """Routes over a span that go on from here, past the cable as it lies."""
+        planner, observer = self.planner, self.observer
+        laid = observer.laid(span - 1)
+        flown = _flown(planner.spans[span - 1], done) if done else None
+        start = planner.places[span - 1] if flown is None else flown.points[-1]
+        tether = observer.tether(span)
+        walls = [[planner.tail, tether]] if tether is not None else []
+        seen = set()
+        for barriers in (*walls, [planner.tail], []):
+            for shape in self.shapes:
+                router = Router(
+                    laid.in_plan,
+                    planner.places[:span],
+                    start,
+                    planner.places[span],
+                    planner.cleared(shape.route),
+                    barriers,
+                )
+                crossed = observer.crossed(span, laid, done, 0.5 * shape.route.apart)
+                way = router.find(word[done:], crossed)
+                if way is None:
+                    continue
+                try:
+                    route = planner.with_heights(way, laid, shape)
+                except RequirementError:
+                    continue
+                if flown is not None:
+                    route = flown.then(route)
+                key = route.points.round(3).tobytes()
+                needed = route.tether * planner.world.step
+                if key not in seen and needed < TAUT * self.lengths[span - 1]:
+                    seen.add(key)
+                    yield route
+            if seen:
+                break
+
+    def _fly(self, span: int, route: SpanRoute, gates: int) -> _Leg:
+        """Fly through that many gates of a route, or to its end."""
+        planner, simulation = self.planner, self.simulation
+        planner.spans[span - 1] = route
+        formation = planner.formation()
+        before = sum(len(each.passages) for each in planner.spans[: span - 1])
+        step = planner.world.step
+        end = formation.stops[span] if span < planner.robots - 1 else formation.end
+        if gates <= len(route.passages) and gates:
+            gate = route.passages[gates - 1].gate
+            end = (formation.route.passed[before + gates - 1] + gate.run) * step
+        nodes = np.linspace(self.along, end, max(int((end - self.along) / NODES), 8))
+        timing = greedy_schedule(nodes, *formation.derivatives(nodes), *kept(planner.limits))
+        count = int(np.ceil(timing.duration / INTERVAL)) + 1
+        positions = formation.positions(timing.at(sample_times(count)))
+        finished = simulation.follow(positions, INTERVAL)
+        self.along = end
+        self.ways += 1
+        wrong, near = self._judged(span, gates)
+        wrong += 0 if finished else STUCK
+        return _Leg(wrong, near, finished, route, timing, positions[1:], simulation.state())
+
+    def _judged(self, span: int, gates: int) -> tuple[int, int]:
+        """Letters of a span's word so far that are wrong, and crossings that were near to it.
+
+        Near to being wrong are crossings beyond the word, although others undid them, and those
+        with little height between.
+        """
+        record = self.simulation.record()
+        later = record.clock >= self.began[span - 1] - 0.3
+        times = np.array(self.began + [1e9] * (self.planner.robots - 1 - len(self.began)))
+        events = [
+            event
+            for event in leader_events(
+                record.times[later],
+                record.cable[later],
+                record.held,
+                times,
+                clock=record.clock[later],
+            )
+            if event.span == span
+        ]
+        word = self.planner.words[span - 1][:gates]
+        happened = [(event.older, event.over, event.sense) for event in reduced_word(events)]
+        wanted = [(letter.older, letter.over, letter.sense) for letter in word]
+        same = 0
+        while same < min(len(wanted), len(happened)) and wanted[same] == happened[same]:
+            same += 1
+        wrong = len(wanted) + len(happened) - 2 * same
+        tight = CLOSE * self.planner.world.step
+        near = sum(not event.own and abs(event.gap) < tight for event in events)
+        near += max(sum(not event.curl for event in events) - len(wanted), 0)
+        return wrong, near
+
+
+def _flown(route: SpanRoute, done: int) -> SpanRoute:
+    """A route up to the end of the run behind gate `done` (from 1)."""
+    gate = route.passages[done - 1].gate
+    at = next(
+        k for k in range(len(route.points) - 1, -1, -1) if np.allclose(route.points[k], gate.place)
+    )
+    return SpanRoute(np.concatenate((route.points[: at + 1], [gate.exit])), route.passages[:done])

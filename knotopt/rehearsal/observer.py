@@ -1,0 +1,116 @@
+"""The cable of a simulated flight as a planner sees it, in grid steps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import shapely
+
+from knotopt.arrays import FloatArray
+from knotopt.flight.laid_cable import Laid
+from knotopt.flight.planner import FlightPlanner
+from knotopt.flight.route import SpanRoute
+from knotopt.flight.word import Letter
+from knotopt.sim.simulation import Simulation
+
+LOOSE = 0.5  # end of the tether at the leader that it may fly past [grid steps]
+ARRIVED = 0.2  # from its place, at most: a robot that hovers there [grid steps]
+
+
+class Observer:
+    """Looks at the cable of a simulation.
+
+    Parameters
+    ----------
+    planner : FlightPlanner
+    simulation : Simulation
+    """
+
+    def __init__(self, planner: FlightPlanner, simulation: Simulation) -> None:
+        self.planner, self.simulation = planner, simulation
+
+    def laid(self, spans: int) -> Laid:
+        """The first spans as they lie; where a robot is not in its place yet, as modelled."""
+        planner, simulation = self.planner, self.simulation
+        found = list(planner.modelled(spans).spans)
+        robots = self._in_plan(simulation.robots)
+        arrived = np.linalg.norm(robots - planner.places, axis=1) < ARRIVED
+        for i in np.flatnonzero(arrived[:spans] & arrived[1 : spans + 1]).tolist():
+            found[i] = self._in_grid(i)
+        return Laid(found)
+
+    def tether(self, span: int) -> FloatArray | None:
+        """The cable from robot `span` to the leader in plan, but for its end; None if short."""
+        points = self._own_cable(span)
+        far = np.flatnonzero(np.linalg.norm(points - points[-1], axis=1) > LOOSE)
+        if len(far) < 1 or far[-1] < 1:
+            return None
+        return points[: far[-1] + 1]
+
+    def crossed(
+        self, span: int, laid: Laid, done: int, apart: float
+    ) -> dict[int, list[tuple[float | None, float]]]:
+        """Crossings on the laid spans where they are now: time on the grid, arc length.
+
+        Parameters
+        ----------
+        span : int
+            That is being flown.
+        laid : Laid
+        done : int
+            Letters of its word that are behind the leader.
+        apart : float
+            That the next crossing keeps from where the tether hangs over the same span.
+        """
+        planner = self.planner
+        found: dict[int, list[tuple[float | None, float]]] = {}
+        lines = [shapely.LineString(points) for points in laid.in_plan]
+        for later, route in enumerate(planner.spans[: span - 1], 1):
+            for older, gates in _by_older(route).items():
+                places = _places(lines[older - 1], lines[later - 1])
+                if len(places) != len(gates):
+                    places = [along for along, _ in gates]
+                times = (first for _, first in gates)
+                found.setdefault(older, []).extend(zip(times, places, strict=True))
+        word = planner.words[span - 1]
+        if 0 < done < len(word) and word[done - 1].older == word[done].older:
+            last, wanted = word[done - 1].first, word[done].first
+            if last is not None and wanted is not None:
+                older = word[done].older
+                tether = shapely.LineString(self._own_cable(span))
+                gate = planner.spans[span - 1].passages[done - 1].gate
+                hooks = [gate.along, *_places(lines[older - 1], tether)]
+                place = max(hooks) + apart if wanted > last else min(hooks) - apart
+                found.setdefault(older, []).append((last, place))
+        return found
+
+    def _own_cable(self, span: int) -> FloatArray:
+        return self._in_plan(self.simulation.cable[self.simulation.held[span - 1] :])
+
+    def _in_plan(self, points: FloatArray) -> FloatArray:
+        flat: FloatArray = points[:, :2] / self.planner.world.step
+        return flat
+
+    def _in_grid(self, span: int) -> FloatArray:
+        """Span `span` (from 0), heights above the robots'."""
+        simulation, world = self.simulation, self.planner.world
+        points = simulation.cable[simulation.held[span] : simulation.held[span + 1] + 1]
+        heights_above: FloatArray = (points - [0, 0, world.altitude]) / world.step
+        return heights_above
+
+
+def _by_older(route: SpanRoute) -> dict[int, list[tuple[float, float | None]]]:
+    """Arc length and time on the grid of a route's gates, in order, for each span crossed."""
+    found: dict[int, list[tuple[float, float | None]]] = {}
+    for passage in sorted(route.passages, key=lambda each: each.gate.along):
+        letter: Letter = passage.gate.letter
+        found.setdefault(letter.older, []).append((passage.gate.along, letter.first))
+    return found
+
+
+def _places(line: shapely.LineString, other: shapely.LineString) -> Sequence[float]:
+    """Arc lengths along a line at which another crosses it, in order."""
+    met = shapely.intersection(line, other)
+    points = [part for part in shapely.get_parts(met) if part.geom_type == "Point"]
+    return sorted(float(line.project(point)) for point in points)

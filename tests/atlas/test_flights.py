@@ -1,0 +1,221 @@
+"""An atlas with flights in simulation: what came of them, files, a resumed run, the report."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import fields, replace
+from pathlib import Path
+
+import pytest
+
+from knotopt.atlas import flights
+from knotopt.atlas.engine import Local
+from knotopt.atlas.flights import Flown, fly_set
+from knotopt.atlas.measure import KnotResult, measure_knot
+from knotopt.atlas.optional_rows import FlightRow, FlightTimesRow
+from knotopt.atlas.report.flights import OUTCOMES, agreement_table, tied_table
+from knotopt.atlas.report.markdown import markdown
+from knotopt.atlas.report.report import report_document
+from knotopt.atlas.report.results import Results, read_results
+from knotopt.atlas.run import run_atlas
+from knotopt.atlas.schema import FLIGHT_TIMES, FLIGHTS, Settings, meaning
+from knotopt.atlas.store import read_manifest, read_rows
+from knotopt.cable.cable import Cable
+from knotopt.catalogue.lookup import find_knot
+from knotopt.errors import MissingExtraError, RequirementError
+from knotopt.sim.trials import wilson_interval
+from tests.conftest import Cli
+from tests.small_atlas import LIST, Replay, contents
+
+Supports = tuple[int, ...]
+SETTINGS = Settings(span=True, check=0, physics=True)
+FLOWN = Flown(True, True, "", 1.0, 2.0, "tied", "tied: 3_1", 30.0, 1.1, 0.03, 0.2, 9.0)
+LOST = replace(FLOWN, tied=False, why="crossing 2", outcome="wrong knot", verdict="wrong knot: ...")
+UNPLANNED = Flown(False, False, "no way", 1.0)
+
+
+def stub(_: str, cable: Cable, supports: Supports) -> Flown:
+    """Small sets do not tie; one cut has no plan for them."""
+    if len(supports) > 4:
+        return FLOWN
+    return UNPLANNED if str(cable.cut) == "L-" else LOST
+
+
+@pytest.fixture(scope="module")
+def found() -> dict[int, KnotResult]:
+    """Results of 3_1 and 4_1, with flights that nobody simulated."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(flights, "fly_set", stub)
+        return {knot.number: measure_knot(knot, SETTINGS) for knot in LIST[:2]}
+
+
+@pytest.fixture
+def folder(tmp_path: Path, found: dict[int, KnotResult]) -> Path:
+    run_atlas(tmp_path / "run", LIST[:2], SETTINGS, Replay(found))
+    return tmp_path / "run"
+
+
+@pytest.fixture
+def results(folder: Path) -> Results:
+    return read_results(folder)
+
+
+def test_a_set_that_ties() -> None:
+    flown = fly_set("3_1", Cable(find_knot("3_1").diagram, "L-"), (3, 4, 5))
+    assert (flown.planned, flown.tied, flown.outcome) == (True, True, "tied")
+    assert (flown.verdict, flown.why) == ("tied: 3_1", "")
+    measures = (flown.flight_seconds, flown.separation, flown.strand_distance, flown.cable_length)
+    assert all(value is not None and value > 0 for value in measures)
+    assert min(flown.planning_seconds, flown.simulation_seconds) > 0
+
+
+def test_a_set_without_a_plan(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise RequirementError("no way for span 4")
+
+    monkeypatch.setattr(flights, "plan_flight", refuse)
+    flown = fly_set("3_1", Cable(find_knot("3_1").diagram, "L-"), (3,))
+    assert (flown.planned, flown.tied, flown.why) == (False, False, "no way for span 4")
+    assert flown.outcome is flown.flight_seconds is flown.tension is None
+
+
+def test_a_flight_that_cannot_be_examined(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Trial:
+        is_tied = False
+        verdict = record = type("Any", (), {"outcome": "unsound", "smallest_distance": 0.0})()
+        record.largest_tension = 1.0
+
+    def broken(*_: object) -> None:
+        raise ValueError("nan")
+
+    monkeypatch.setattr(flights, "fly_trial", lambda _: Trial())
+    monkeypatch.setattr(flights, "examine_flight", broken)
+    flown = fly_set("3_1", Cable(find_knot("3_1").diagram, "L-"), (3, 4, 5))
+    assert (flown.separation, flown.why) == (None, "the simulation broke down")
+
+
+def test_rows(folder: Path, found: dict[int, KnotResult]) -> None:
+    rows, times = (read_rows(folder, name).to_pylist() for name in (FLIGHTS, FLIGHT_TIMES))
+    kinds = ["lcf", "opening", "span"] * 16
+    assert [row["supports"] for row in rows] == [row["supports"] for row in times] == kinds
+    atlas = [row for number in (1, 2) for row in found[number].rows]
+    for row, measured in zip(rows, [each for each in atlas for _ in range(3)], strict=True):
+        assert (row["knot"], row["cut"]) == (measured.knot, measured.cut)
+        assert row["robots"] == getattr(measured, f"{row['supports']}_robots")
+        if row["supports"] == "lcf":
+            assert row["opening_open"] == measured.lcf_open
+        assert row["opening_open"] or row["supports"] != "opening"
+        assert row["span_open"] or row["supports"] != "span"
+        assert row["planned"] or row["cut"] == "L-"
+    assert {row["span_open"] for row in rows} == {True, False}
+    for name, row_class in ((FLIGHTS, FlightRow), (FLIGHT_TIMES, FlightTimesRow)):
+        schema = read_rows(folder, name).schema
+        for column in fields(row_class):
+            assert schema.field(column.name).metadata[b"meaning"].decode() == meaning(column)
+    assert {"mujoco", "scipy"} < set(read_manifest(folder).versions)
+
+
+def test_equal_sets_fly_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    flown: list[tuple[str, Supports]] = []
+
+    def count(_: str, cable: Cable, supports: Supports) -> Flown:
+        flown.append((str(cable.cut), supports))
+        return FLOWN
+
+    monkeypatch.setattr(flights, "fly_set", count)
+    result = measure_knot(LIST[0], SETTINGS)
+    assert len(flown) == len(set(flown)) < 24
+    times = result.requested[FLIGHT_TIMES]
+    assert sum(row.simulation_seconds > 0 for row in times) == len(flown)
+    assert len(times) == len(result.requested[FLIGHTS]) == 24
+
+
+def test_resumed(tmp_path: Path, folder: Path, found: dict[int, KnotResult]) -> None:
+    half = tmp_path / "half"
+    with pytest.raises(KeyboardInterrupt):
+        run_atlas(half, LIST[:2], SETTINGS, Replay(found, 1, KeyboardInterrupt()))
+    engine = Replay(found)
+    run_atlas(half, LIST[:2], SETTINGS, engine)
+    assert engine.asked == [1]
+    assert contents(half) == contents(folder)
+
+
+def test_tied_table(results: Results) -> None:
+    table = tied_table(results)
+    for words, kind in (("LCF", "lcf"), ("`opening`", "opening"), ("`span`", "span")):
+        for name, knots in (("3", {"3_1"}), ("4", {"4_1"}), ("all", {"3_1", "4_1"})):
+            (row,) = [r for r in table.rows if r[:2] == (name, words)]
+            sets = [
+                each
+                for each in results.flights
+                if each["supports"] == kind and each["knot"] in knots
+            ]
+            flown = [each for each in sets if each["planned"]]
+            tied = sum(each["tied"] for each in flown)
+            assert row[2:5] == (str(len(sets)), str(len(flown)), str(tied))
+            low, high = wilson_interval(tied, len(flown))
+            assert row[6] == f"{100 * low:.0f} to {100 * high:.0f} %"
+            assert sum(map(int, row[-len(OUTCOMES) :])) + tied == len(flown)
+
+
+def test_agreement_table(results: Results) -> None:
+    rows = agreement_table(results).rows
+    assert [row[:2] for row in rows] == [
+        (kind, model)
+        for kind in ("LCF", "`opening`", "`span`")
+        for model in ("`opening`", "`span`")
+    ]
+    for row in rows:
+        counts = [*map(int, row[3:7])]
+        assert sum(counts) == int(row[2])
+        assert row[7] == f"{100 * (counts[0] + counts[3]) / sum(counts):.1f} %"
+    assert rows[2][5:7] == ("0", "0")  # what is smallest by `opening` is open by it
+    without = replace(results)
+    without.__dict__["flights"] = [{**row, "span_open": None} for row in results.flights]
+    assert {row[1] for row in agreement_table(without).rows} == {"`opening`"}
+
+
+def test_section(results: Results) -> None:
+    text = markdown(report_document(results, {}))
+    assert "## Flights" in text
+    assert "Planning took 1.0 s a set (median), simulating 2.0 s." in text
+    unplanned = replace(results)
+    unplanned.__dict__["flights"] = [
+        {**row, "planned": False, "tied": False, "simulation_seconds": 0.0}
+        for row in results.flights
+    ]
+    text = markdown(report_document(unplanned, {}))
+    assert "Planning took 1.0 s a set (median)." in text
+    assert tied_table(unplanned).rows[0][3:7] == ("0", "0", "–", "–")
+    assert agreement_table(unplanned).rows == ()
+
+
+def test_missing_extra(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "mujoco", None)
+    status, output, errors = cli("atlas", tmp_path / "run", "3_1", "--physics")
+    assert (status, output) == (1, "")
+    assert "needs mujoco, which is not installed" in errors
+    assert "pip install 'knotopt[sim]'" in errors
+    with pytest.raises(MissingExtraError):
+        run_atlas(tmp_path / "run", LIST[:1], SETTINGS, Local())
+    assert not (tmp_path / "run").exists()
+
+
+def test_summary(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(flights, "fly_set", stub)
+    status, output, _ = cli("atlas", tmp_path / "run", "3_1", "--jobs", 1, "--physics")
+    assert status == 0
+    assert "flights that tie" in output
+    assert "lcf 0 of 8, opening 0 of 8" in output
+
+
+@pytest.mark.slow
+def test_the_same_bytes_every_time(tmp_path: Path) -> None:
+    settings = Settings(check=0, physics=True)
+    for name in ("one", "other"):
+        run_atlas(tmp_path / name, LIST[:1], settings, Local(1 if name == "one" else 2))
+    one, other = ((tmp_path / name / FLIGHTS).read_bytes() for name in ("one", "other"))
+    assert one == other
+    rows = read_rows(tmp_path / "one", FLIGHTS).to_pylist()
+    assert {row["outcome"] for row in rows} == {"tied", "wrong knot"}
+    assert all(row["why"] for row in rows if not row["tied"])
