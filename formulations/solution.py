@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
-from formulations.instance import Instance
+if TYPE_CHECKING:  # options of the command line are read from `Limits`, at once
+    from formulations.instance import Instance
 
 
 class Status(StrEnum):

@@ -1,5 +1,9 @@
 """Errors for wrong input. A method that stops early returns a value; it does not raise."""
 
+from __future__ import annotations
+
+import importlib.util
+
 
 class KnotoptError(ValueError):
     """Base of every error that knotopt raises for wrong input."""
@@ -49,6 +53,25 @@ class MissingExtraError(KnotoptError):
             f"{purpose} needs {package}, which is not installed; "
             f"install it with: {install_line(extra)}"
         )
+
+
+def require_extra(package: str, extra: str, purpose: str) -> None:
+    """Whether an optional dependency can be imported.
+
+    Parameters
+    ----------
+    package, extra : str
+        What is imported, and the extra of this project that brings it.
+    purpose : str
+        What needs it, for the sentence: "drawing pictures".
+
+    Raises
+    ------
+    MissingExtraError
+        It cannot.
+    """
+    if importlib.util.find_spec(package) is None:
+        raise MissingExtraError(package, extra, purpose)
 
 
 def install_line(extra: str) -> str:

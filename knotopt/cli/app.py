@@ -16,6 +16,7 @@ from knotopt.cli import (
     fly,
     knots,
     lcf,
+    logs,
     path,
     prove,
     report,
@@ -46,30 +47,37 @@ app = typer.Typer(
 
 @app.callback()
 def options(
-    version: Annotated[
+    context: typer.Context,
+    version: Annotated[  # noqa: ARG001
         bool,
         typer.Option(
             "--version", callback=_print_version, is_eager=True, help="Print the version."
         ),
     ] = False,
+    verbose: logs.VerboseOption = 0,
+    log: logs.LogOption = None,
 ) -> None:
-    """Options of the command itself."""
+    """Options before the command, where --verbose and --log may stand as well as after it."""
+    context.with_resource(logs.logging_to(verbose, log))
 
 
-app.command("knots")(knots.knots)
-app.command("show")(show.show)
-app.command("lcf")(lcf.lcf)
-app.command("solve")(solve.solve)
-app.command("path")(path.path)
-app.command("fly")(fly.fly)
-app.command("topology")(topology.topology)
-app.command("compare")(compare.compare)
-app.command("atlas")(atlas.atlas)
-app.command("report")(report.report)
-app.command("prove")(prove.prove)
-app.command("check")(prove.check)
-app.command("table1")(table1.table1)
-app.command("doctor")(doctor.doctor)
+for command in (
+    knots.knots,
+    show.show,
+    lcf.lcf,
+    solve.solve,
+    path.path,
+    fly.fly,
+    topology.topology,
+    compare.compare,
+    atlas.atlas,
+    report.report,
+    prove.prove,
+    prove.check,
+    table1.table1,
+    doctor.doctor,
+):
+    app.command()(logs.logged(command))
 
 
 def main() -> None:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from knotopt.cli.output import OpennessOption, print_facts, print_written
+from knotopt.cli.options import OpennessOption
+from knotopt.cli.printing import print_facts, print_written
 
 if TYPE_CHECKING:
     from rich.progress import Task

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from knotopt.cli.output import (
+from knotopt.cli.options import (
     CatalogueOption,
     JsonOption,
     KnotsArgument,
@@ -17,14 +17,11 @@ from knotopt.cli.output import (
     SolverOption,
     TimeLimitOption,
     find_knots,
-    print_json,
-    print_note,
-    print_table,
-    print_written,
     run_header,
     solver_limits,
-    track,
 )
+from knotopt.cli.printing import print_json, print_note, print_table, print_written
+from knotopt.cli.progress import track
 
 if TYPE_CHECKING:
     from knotopt.catalogue.lookup import NamedDiagram

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import typer
 
-from knotopt.cli.output import JsonOption, print_json, print_table
+from knotopt.cli.options import JsonOption
+from knotopt.cli.printing import print_json, print_table
 from knotopt.errors import install_line
 
 EXTRAS = {

@@ -12,16 +12,15 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from knotopt.cli.fly_report import show_flight
-from knotopt.cli.output import (
+from knotopt.cli.options import (
     JsonOption,
     KnotArgument,
     OpennessOption,
     SupportsCutOption,
     SupportsOption,
-    print_json,
-    print_written,
-    track,
 )
+from knotopt.cli.printing import print_json, print_written
+from knotopt.cli.progress import track
 
 if TYPE_CHECKING:
     from knotopt.flight.plan import FlightPlan

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from knotopt.cli.output import print_facts, print_table
+from knotopt.cli.printing import print_facts, print_table
 
 if TYPE_CHECKING:
     from knotopt.flight.examine import Examination

@@ -7,7 +7,8 @@ from typing import Annotated
 
 import typer
 
-from knotopt.cli.output import JsonOption, print_json, print_table
+from knotopt.cli.options import JsonOption
+from knotopt.cli.printing import print_json, print_table
 
 
 def knots(

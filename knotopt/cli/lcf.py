@@ -6,15 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from knotopt.cli.output import (
-    JsonOption,
-    KnotArgument,
-    LayeredOption,
-    PlotOption,
-    print_json,
-    print_table,
-    print_written,
-)
+from knotopt.cli.options import JsonOption, KnotArgument, LayeredOption, PlotOption
+from knotopt.cli.printing import print_json, print_table, print_written
 
 if TYPE_CHECKING:
     from knotopt.supports.lcf import LcfResult

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from knotopt.cli.output import (
+from knotopt.cli.options import (
     FormulationOption,
     JsonOption,
     KnotArgument,
@@ -17,12 +17,8 @@ from knotopt.cli.output import (
     SupportsCutOption,
     SupportsOption,
     TimeLimitOption,
-    print_facts,
-    print_json,
-    print_note,
-    print_table,
-    print_written,
 )
+from knotopt.cli.printing import print_facts, print_json, print_note, print_table, print_written
 
 if TYPE_CHECKING:
     from knotopt.path.result import PathResult

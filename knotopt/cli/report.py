@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from knotopt.cli.output import print_written
+from knotopt.cli.printing import print_written
 
 
 def report(

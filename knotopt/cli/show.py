@@ -7,14 +7,8 @@ from typing import Annotated
 
 import typer
 
-from knotopt.cli.output import (
-    JsonOption,
-    KnotArgument,
-    PlotOption,
-    print_facts,
-    print_json,
-    print_written,
-)
+from knotopt.cli.options import JsonOption, KnotArgument, PlotOption
+from knotopt.cli.printing import print_facts, print_json, print_written
 
 MAX_CROSSINGS = 120  # of an Alexander polynomial computed here: about a second
 

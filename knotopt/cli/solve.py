@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from knotopt.cli.output import (
+from knotopt.cli.options import (
     FormulationOption,
     JsonOption,
     KnotArgument,
@@ -16,12 +16,17 @@ from knotopt.cli.output import (
     SolverOption,
     ThreadingOption,
     TimeLimitOption,
-    print_json,
-    print_written,
     solver_limits,
-    track,
 )
-from knotopt.cli.solve_report import asked_in_words, search_json, show_cuts, show_search, show_sets
+from knotopt.cli.printing import print_json, print_written
+from knotopt.cli.progress import track
+from knotopt.cli.solve_printing import (
+    asked_in_words,
+    search_json,
+    show_cuts,
+    show_search,
+    show_sets,
+)
 
 if TYPE_CHECKING:
     from formulations.solution import Limits

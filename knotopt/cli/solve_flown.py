@@ -12,15 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from knotopt.cli.output import (
-    print_facts,
-    print_json,
-    print_note,
-    print_table,
-    print_written,
-    run_header,
-)
-from knotopt.cli.solve_report import search_json, show_search
+from knotopt.cli.options import run_header
+from knotopt.cli.printing import print_facts, print_json, print_note, print_table, print_written
+from knotopt.cli.solve_printing import search_json, show_search
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -8,7 +8,9 @@ from typing import Annotated
 
 import typer
 
-from knotopt.cli.output import JsonOption, print_json, print_note, print_table, print_written, track
+from knotopt.cli.options import JsonOption
+from knotopt.cli.printing import print_json, print_note, print_table, print_written
+from knotopt.cli.progress import track
 
 
 def table1(

@@ -6,14 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from knotopt.cli.output import (
-    JsonOption,
-    PlotOption,
-    print_facts,
-    print_json,
-    print_table,
-    print_written,
-)
+from knotopt.cli.options import JsonOption, PlotOption
+from knotopt.cli.printing import print_facts, print_json, print_table, print_written
 
 if TYPE_CHECKING:
     from knotopt.flight.leader_plan import LeaderFaces

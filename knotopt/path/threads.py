@@ -13,7 +13,8 @@ import numpy as np
 from knotopt.arrays import BoolArray, FloatArray, IntArray
 from knotopt.path.mesh import Mesh
 from knotopt.supports.regions import Regions
-from knotopt.supports.threading import Threading, threading_points
+from knotopt.supports.threading import Threading
+from knotopt.supports.threading_points import threading_points
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING
 
 from knotopt.errors import RequirementError
-from knotopt.path.curve import Curve
 from knotopt.path.requirements import LARGEST, PathRequirements
-from knotopt.path.result import PathResult
 from knotopt.ranges import check_not_negative
+
+if TYPE_CHECKING:
+    from knotopt.path.curve import Curve
+    from knotopt.path.result import PathResult
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,8 @@ from formulations.team import Team
 from knotopt.arrays import FloatArray, IntArray
 from knotopt.cable.cable import Cable
 from knotopt.supports.regions import Regions
-from knotopt.supports.threading import Threading, threading_points
+from knotopt.supports.threading import Threading
+from knotopt.supports.threading_points import threading_points
 
 
 @dataclass(frozen=True, eq=False)

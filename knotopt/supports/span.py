@@ -34,7 +34,8 @@ from knotopt.errors import RequirementError
 from knotopt.supports.chords import Chords, between, distance_to, meet, ray_to
 from knotopt.supports.opening import path_turns, stretch_margins
 from knotopt.supports.regions import Regions
-from knotopt.supports.threading import Threading, threading_points
+from knotopt.supports.threading import Threading
+from knotopt.supports.threading_points import threading_points
 
 MAX_TRIPLES = 40_000_000  # pairs or triples of spans judged at one region
 

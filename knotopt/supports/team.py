@@ -9,7 +9,7 @@ from knotopt.arrays import FloatArray
 from knotopt.cable.cable import Cable
 from knotopt.supports.regions import Regions
 from knotopt.supports.requirements import Formulation, Requirements
-from knotopt.supports.threading import threading_points
+from knotopt.supports.threading_points import threading_points
 
 SLACK = 1e-9  # distances are compared with decimals that users write [grid steps]
 

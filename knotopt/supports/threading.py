@@ -1,20 +1,14 @@
-"""Threading points: where a later strand passes through a region, which must then stay open.
+"""Which turning points inside a region count as threading it.
 
-Paper, section III.A.2. Which turning points inside a region count depends on the mode:
-`turning-point`, the paper's, counts every one later on the path than the region's start;
-`over-under` only those where the strand enters over the boundary and leaves under it or the
-reverse (a strand that is over both times can be lifted off; one that ends inside does not leave).
+Paper, section III.A.2. `turning-point`, the paper's mode, counts every one later on the path than
+the region's start; `over-under` only those where the strand enters over the boundary and leaves
+under it or the reverse (a strand that is over both times can be lifted off; one that ends inside
+does not leave).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import StrEnum
-
-import numpy as np
-
-from knotopt.arrays import IntArray
-from knotopt.supports.regions import Regions
 
 
 class Threading(StrEnum):
@@ -22,71 +16,3 @@ class Threading(StrEnum):
 
     TURNING_POINT = "turning-point"
     OVER_UNDER = "over-under"
-
-
-@dataclass(frozen=True, eq=False)
-class ThreadingPoints:
-    """All K threading points of a cable's regions, sorted by region, then by time.
-
-    Attributes
-    ----------
-    region : int array, shape (K,), index of the region
-    point : int array, shape (K,), index of the turning point (0-based)
-    entry : int array, shape (K,)
-        Time at which the strand through the point enters the region over its boundary
-        [grid steps].
-    """
-
-    region: IntArray
-    point: IntArray
-    entry: IntArray
-
-    def __len__(self) -> int:
-        return len(self.region)
-
-    def first_of_strands(self) -> ThreadingPoints:
-        """Of each strand only the turning point that it meets first."""
-        strand = np.stack((self.region, self.entry), axis=1)
-        first = np.sort(np.unique(strand, axis=0, return_index=True)[1])
-        return ThreadingPoints(self.region[first], self.point[first], self.entry[first])
-
-
-def threading_points(regions: Regions, mode: Threading) -> ThreadingPoints:
-    """The threading points of every region.
-
-    A strand is what runs inside a region between two visits to its boundary; a strand that passes
-    a boundary inside the region (a loop may cross itself) counts as two.
-
-    Examples
-    --------
-    >>> from knotopt.cable.cable import Cable
-    >>> from knotopt.diagram.families import torus_knot
-    >>> regions = Regions(Cable(torus_knot(2, 3), "L+"))
-    >>> found = threading_points(regions, Threading.TURNING_POINT)
-    >>> list(zip(found.region.tolist(), (found.point + 1).tolist(), found.entry.tolist()))
-    [(0, 9, 19), (1, 9, 19)]
-    """
-    cable = regions.cable
-    later = regions.inside & (cable.times > regions.boundaries.a[:, :1])
-    region, point = np.nonzero(later)
-    visits, crossing, over = cable.visits
-    crossings, boundaries = cable.crossings, regions.boundaries
-    # The strand through a point enters and leaves at the visits next to it whose crossing lies on
-    # the boundary; runs of visits off the boundary are skipped with a running maximum.
-    on = np.zeros((len(regions), len(visits)), dtype=bool)
-    for first, last in (*boundaries.a.T[None], *boundaries.b.T[None]):
-        for time in (crossings.first[crossing], crossings.second[crossing]):
-            on |= (first[:, None] <= time) & (time <= last[:, None])
-    place = np.arange(len(visits))
-    before = np.maximum.accumulate(np.where(on, place, -1), axis=1)
-    reverse = np.where(on, place, len(visits))[:, ::-1]
-    after = np.minimum.accumulate(reverse, axis=1)[:, ::-1]
-    next_visit = np.searchsorted(visits, cable.times[point])
-    entered = before[region, next_visit - 1]
-    left = after[region, np.minimum(next_visit, len(visits) - 1)]
-    left = np.where(next_visit == len(visits), len(visits), left)
-    if mode is Threading.OVER_UNDER:
-        leaves = left < len(visits)
-        chosen = leaves & (over[entered] != over[np.where(leaves, left, 0)])
-        region, point, entered = region[chosen], point[chosen], entered[chosen]
-    return ThreadingPoints(region, point, visits[entered])

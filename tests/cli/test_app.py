@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from formulations import probe
-from knotopt.cli.output import print_table
+from knotopt.cli.printing import print_table
 from knotopt.tables.table1 import NOTE
 from tests.conftest import Cli
 

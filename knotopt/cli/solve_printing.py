@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from knotopt.cli.output import print_facts, print_json, print_table
+from knotopt.cli.printing import print_facts, print_json, print_table
 
 if TYPE_CHECKING:
     from formulations.solution import Enumeration

@@ -1,0 +1,148 @@
+"""Options that several commands take, and what they stand for.
+
+An option's default is that of the dataclass that it fills, read from there.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from formulations.backends import BACKENDS
+from formulations.solution import BackendError, Limits
+from knotopt.errors import SolverError
+from knotopt.supports.requirements import Requirements
+
+if TYPE_CHECKING:
+    from knotopt.catalogue.lookup import NamedDiagram
+
+
+def unless_given(default: Any, help: str, *names: str, **settings: Any) -> Any:
+    """An option that is None where it is not given; the help shows what then holds.
+
+    For options that are refused in company of others, which a default would not be.
+
+    Parameters
+    ----------
+    default : number or str
+        What holds where it is not given, such as `World.altitude`.
+    help : str
+    *names : str
+        Such as "--r"; by default as the parameter is called.
+    **settings
+        As for `typer.Option`.
+    """
+    shown = default if isinstance(default, str) else f"{float(default):g}"
+    return typer.Option(*names, help=help, show_default=shown, **settings)
+
+
+def openness_option(default: Any = Requirements.openness) -> Any:
+    """The option --r of a command whose requirements have that openness by default."""
+    return unless_given(default, "Openness r in (0, 1] [grid steps].", "--r")
+
+
+KnotArgument = Annotated[
+    str,
+    typer.Argument(
+        metavar="KNOT",
+        show_default=False,
+        help="A name (8_19), a row of Table I (3, '7 Var1'), 'T(2,7)', or a .json or .csv file.",
+    ),
+]
+KnotsArgument = Annotated[
+    list[str] | None,
+    typer.Argument(
+        metavar="KNOT...",
+        show_default=False,
+        help="Names (8_19), rows of Table I (3, '7 Var1'), 'T(2,7)', or .json or .csv files.",
+    ),
+]
+CatalogueOption = Annotated[
+    bool, typer.Option("--catalogue", help="All 249 prime knots up to 10 crossings.")
+]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
+PlotOption = Annotated[
+    Path | None,
+    typer.Option("--plot", metavar="FILE", help="Draw a picture: .png, .pdf or .svg."),
+]
+LayeredOption = Annotated[
+    bool,
+    typer.Option("--layered", help="Also drop supports that lie inside another active region."),
+]
+SupportsOption = Annotated[
+    str,
+    typer.Option(
+        metavar="NAME|FILE",
+        help="milp (the provably smallest set), lcf, all (turning points), or a .json file "
+        "such as solve --json and lcf --json print.",
+    ),
+]
+SupportsCutOption = Annotated[
+    str,
+    typer.Option(
+        metavar="CUT",
+        help="best (for those supports; a file's own), or one: L+ L- R+ R- B+ B- T+ T-, col3+, "
+        "row5-.",
+    ),
+]
+
+FormulationOption = Annotated[
+    str,
+    typer.Option(
+        metavar="NAME",
+        help="opening (polygons through the grid's crossings) or span (the taut cable itself).",
+    ),
+]
+ThreadingOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="NAME",
+        help="What threads a region: turning-point or over-under; by default the former for "
+        "opening, the latter for span.",
+        show_default=False,
+    ),
+]
+OpennessOption = Annotated[float | None, openness_option()]
+SolverOption = Annotated[
+    str,
+    typer.Option(metavar="NAME", help=f"{', '.join(BACKENDS)} (22 points at most)."),
+]
+TimeLimitOption = Annotated[
+    float | None,
+    typer.Option(help="Stop after so many seconds [s].", metavar="S", show_default=False),
+]
+
+
+def find_knots(names: list[str] | None, *, catalogue: bool) -> list[NamedDiagram]:
+    """The knots named, or all of the catalogue."""
+    from knotopt.catalogue.knots import shipped_knots
+    from knotopt.catalogue.lookup import find_knot
+
+    if catalogue == bool(names):
+        raise typer.BadParameter("give knots, or --catalogue", param_hint="KNOT...")
+    return [find_knot(name) for name in (shipped_knots() if catalogue else names or ())]
+
+
+def solver_limits(
+    seconds: float | None,
+    gap: float = Limits.gap,
+    threads: int = Limits.threads,
+    seed: int = Limits.seed,
+) -> Limits:
+    """Limits of a solver from options; wrong ones are this package's errors."""
+    try:
+        return Limits(seconds, gap, threads, seed)
+    except BackendError as error:
+        raise SolverError(str(error)) from error
+
+
+def run_header(command: str, settings: list[Any], knots: list[NamedDiagram]) -> str:
+    """What tells one long run from another: command, options, grids."""
+    import hashlib
+
+    grids = [[named.name, named.diagram.minus, named.diagram.plus] for named in knots]
+    run = json.dumps([settings, grids])
+    return f"knotopt {command} {hashlib.sha256(run.encode()).hexdigest()}"
