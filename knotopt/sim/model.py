@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from knotopt.arrays import FloatArray, IntArray
-from knotopt.errors import MissingExtraError, RequirementError
+from knotopt.errors import RequirementError, require_extra
 from knotopt.sim.material import Material
 
 if TYPE_CHECKING:
@@ -67,10 +67,9 @@ def cable_model(lengths: FloatArray, step: float, material: Material, dt: float)
     RequirementError
         A cable too thick for its edges, or too stiff for the time step.
     """
-    try:
-        import mujoco
-    except ImportError as error:
-        raise MissingExtraError("mujoco", "sim", "simulating a flight") from error
+    require_extra("mujoco", "sim", "simulating a flight")
+    import mujoco
+
     counts = np.maximum(LEAST_EDGES, np.round(lengths / (material.edge * step))).astype(np.int64)
     edges = np.repeat(lengths / counts, counts)
     if edges.min() < 3 * material.radius:
