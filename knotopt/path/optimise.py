@@ -178,6 +178,12 @@ def optimise_path(
     if status is not expected:
         status = PathStatus.STOPPED
     reasons = [*best.missed]
+    logger.info(
+        "path by the program: %s after %d rounds in %.2f s",
+        status,
+        len(rounds),
+        time.perf_counter() - began,
+    )
     if status is PathStatus.INFEASIBLE:
         reasons += [
             f"no way is found for the {WORDS.get(each.family, each.family)} at {each.where}"
