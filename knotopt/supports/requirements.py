@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from knotopt.errors import RequirementError
-from knotopt.supports.formulation import Formulation
-from knotopt.supports.opening import OPENING
-from knotopt.supports.registry import find_formulation
 from knotopt.supports.threading import Threading
+
+if TYPE_CHECKING:
+    from knotopt.supports.formulation import Formulation
 
 
 @dataclass(frozen=True)
@@ -58,9 +58,9 @@ class Requirements:
     knotopt.errors.RequirementError: the openness r must lie in (0, 1] grid steps, not 1.5
     """
 
-    formulation: str = OPENING.name
-    openness: Fraction = OPENING.openness
-    threading: Threading = OPENING.threading[0]
+    formulation: str = "opening"
+    openness: Fraction = Fraction(1, 2)
+    threading: Threading = Threading.TURNING_POINT
     separation: float | None = None
     payload: float | None = None
     reach: float | None = None
@@ -71,7 +71,7 @@ class Requirements:
 
     def __init__(
         self,
-        formulation: str = OPENING.name,
+        formulation: str = "opening",
         openness: Fraction | float | str | None = None,
         threading: Threading | str | None = None,
         *,
@@ -88,6 +88,8 @@ class Requirements:
                 "an openness and a largest number of robots exclude each other: with the latter "
                 "the smallest opening is maximised"
             )
+        from knotopt.supports.registry import find_formulation  # whose programs import much
+
         rules = find_formulation(formulation)
         fields = {
             "formulation": rules.name,

@@ -22,6 +22,13 @@ def test_both_lists_have_the_same() -> None:
         assert formulation.check is definition.check
 
 
+def test_defaults_of_the_class_are_those_of_a_value() -> None:
+    """The command line shows the former."""
+    asked = Requirements()
+    for name in ("formulation", "openness", "threading"):
+        assert getattr(asked, name) == getattr(Requirements, name)
+
+
 @pytest.mark.parametrize("name", list(FORMULATIONS))
 def test_defaults_are_the_formulations(name: str) -> None:
     asked, formulation = Requirements(name), FORMULATIONS[name]
