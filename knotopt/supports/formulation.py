@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, TypeVar
 
 from formulations.canonical import Program
 from formulations.instance import Instance
@@ -17,18 +17,6 @@ from knotopt.verify.registry import DEFINITIONS
 
 P = TypeVar("P", bound=Program)
 P_co = TypeVar("P_co", bound=Program, covariant=True)
-
-
-class Compiler(Protocol[P_co]):
-    """Makes a formulation's program of a cable.
-
-    It takes the cable's regions, what threads them, what the team asks beyond openness, and the
-    turning points (1-based) of a first guess.
-    """
-
-    def __call__(
-        self, regions: Regions, mode: Threading, team: Team, start: tuple[int, ...], /
-    ) -> P_co: ...
 
 
 @dataclass(frozen=True)
@@ -60,7 +48,9 @@ class Formulation(Generic[P]):
     name : str
     words : str
         What must survive, for the reader.
-    compile : Compiler
+    compile : callable
+        Makes the program of a cable from its regions, what threads them, what the team asks beyond
+        openness, and the turning points (1-based) of a first guess.
     threading : tuple of Threading
         The modes that it has, the default first.
     proofs : mapping of str to callable
@@ -76,7 +66,7 @@ class Formulation(Generic[P]):
 
     name: str
     words: str
-    compile: Compiler[P]
+    compile: Callable[[Regions, Threading, Team, tuple[int, ...]], P]
     threading: tuple[Threading, ...]
     proofs: Mapping[str, Callable[[Claim[P]], dict[str, Any]]]
     openness: Fraction = Fraction(1, 2)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from itertools import count
 from math import comb
 from typing import Any
@@ -45,27 +46,19 @@ def by_refutation(claim: Claim[Program]) -> dict[str, Any]:
         A smaller set exists.
     """
     given = [*clauses(claim.instance), *_counting(claim)]
-    try:
+    with _solver():
         refutation = refute(given)
-    except MissingSolverError as error:
-        raise _missing(error) from error
-    return _content(claim, None if refutation is None else (given, refutation))[1]
+    return _content(claim, None if refutation is None else (given, refutation))
 
 
 def by_refutation_of_spans(claim: Claim[SpanProgram]) -> dict[str, Any]:
-    """A refutation by CaDiCaL of the clauses that paths of too few robots violate.
-
-    Beside each clause go the spans that it excludes together.
-
-    Raises
-    ------
-    As `by_refutation`.
+    """The same of the clauses that paths of too few robots violate, each beside the spans that it
+    excludes together.
     """
     points = claim.instance.decisions
     spans: dict[Clause, tuple[Span, ...]] = {}
 
     def violated(chosen: tuple[int, ...]) -> list[Clause]:
-        """Clauses that a path violates; which spans they speak of is kept."""
         found = {}
         for excluded in claim.program.excluded(chosen, float(claim.openness**2)):
             literals = {x for u, w in excluded for x in not_consecutive(u, w)}
@@ -73,12 +66,10 @@ def by_refutation_of_spans(claim: Claim[SpanProgram]) -> dict[str, Any]:
         spans.update(found)
         return list(found)
 
-    try:
+    with _solver():
         refuted = refute_lazily([(1,), (points,), *_counting(claim)], points, violated)
-    except MissingSolverError as error:
-        raise _missing(error) from error
-    needed, content = _content(claim, refuted)
-    excused = [spans.get(clause, ()) for clause in needed]
+    content = _content(claim, refuted)
+    excused = [spans.get(clause, ()) for clause in content["clauses"]]
     return {"clauses": content["clauses"], "spans": excused, "steps": content["steps"]}
 
 
@@ -88,18 +79,22 @@ def _counting(claim: Claim[Any]) -> list[Clause]:
     return list(at_most(range(1, points + 1), claim.robots - 1, count(points + 1)))
 
 
+@contextmanager
+def _solver() -> Iterator[None]:
+    try:
+        yield
+    except MissingSolverError as error:
+        raise MissingExtraError(error.package, error.extra, "a refutation") from error
+
+
 def _content(
     claim: Claim[Any], refuted: tuple[Sequence[Clause], Refutation] | None
-) -> tuple[list[Clause], dict[str, Any]]:
-    """The clauses needed, and what goes into the certificate."""
+) -> dict[str, Any]:
     if refuted is None:
         fewer = claim.robots - 1
         raise CertificateError(f"a set of {fewer} robots exists: {claim.robots} is not the minimum")
     given, refutation = refuted
-    needed = [given[index] for index in refutation.needed]
-    steps = [[step.literals, step.hints] for step in refutation.steps]
-    return needed, {"clauses": needed, "steps": steps}
-
-
-def _missing(error: MissingSolverError) -> MissingExtraError:
-    return MissingExtraError(error.package, error.extra, "a refutation")
+    return {
+        "clauses": [given[index] for index in refutation.needed],
+        "steps": [[step.literals, step.hints] for step in refutation.steps],
+    }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Protocol
+from typing import Any
 
 from knotopt.verify.regions import Cell, DefinedRegion, define_regions
 
@@ -45,18 +45,8 @@ class OpeningReport:
         return not self.closures
 
 
-class Checker(Protocol):
-    """Examines a set by a definition; parameters as of `knotopt.verify.opening.check_opening`."""
-
-    def __call__(
-        self,
-        path: Sequence[Cell],
-        size: int,
-        supports: Collection[int],
-        openness: Fraction,
-        mode: str,
-        /,
-    ) -> OpeningReport: ...
+Checker = Callable[[Sequence[Cell], int, Collection[int], Fraction, str], OpeningReport]
+"""Examines a set by a definition; parameters as of `knotopt.verify.opening.check_opening`."""
 
 
 @dataclass(frozen=True)

@@ -25,24 +25,14 @@ def field(content: Mapping[str, Any], key: str, kind: type) -> Any:
 
 
 def integer(value: Any, key: str) -> int:
-    """The value, if it is an integer.
-
-    Raises
-    ------
-    CertificateError
-    """
+    """The value, if it is an integer; else a `CertificateError`."""
     if not isinstance(value, int) or isinstance(value, bool):
         raise CertificateError(f"{key}: {value!r} is no integer")
     return value
 
 
 def integers(values: Any, key: str = "clauses") -> tuple[int, ...]:
-    """The values, if they are a list of integers.
-
-    Raises
-    ------
-    CertificateError
-    """
+    """The values, if they are a list of integers; else a `CertificateError`."""
     if not isinstance(values, list):
         raise CertificateError(f"{values!r} is no list of integers")
     return tuple(integer(value, key) for value in values)
