@@ -13,7 +13,7 @@ from knotopt.cable.cut import crossing_free_cuts
 from knotopt.catalogue.knots import shipped_knots
 from knotopt.supports.lcf import lcf
 from knotopt.supports.minimal import compile_program
-from knotopt.supports.requirements import Formulation, Requirements
+from knotopt.supports.requirements import Requirements
 from knotopt.tables.comparison import is_open
 
 THREADINGS = {"opening": None, "opening_over_under": "over-under", "span": None}
@@ -26,7 +26,7 @@ def measure(case: Case) -> Result:
     """
     warm("cp-sat")
     knot = shipped_knots()[case["knot"]]
-    opening = Requirements(Formulation.OPENING)
+    opening = Requirements("opening")
     cp_sat = get_backend("cp-sat")
     result: Result = {"crossing_number": knot.crossing_number, "cuts": {}}
     for cut in crossing_free_cuts(knot.diagram):

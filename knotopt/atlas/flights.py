@@ -16,7 +16,6 @@ from knotopt.flight.plan import FlightPlan
 from knotopt.flight.planner import plan_flight
 from knotopt.sim.trials import Trial, fly_trial
 from knotopt.supports.lcf import LcfResult
-from knotopt.supports.requirements import Formulation
 from knotopt.supports.selection import GivenSupports
 
 Supports = tuple[int, ...]
@@ -51,7 +50,7 @@ class Flown:
 
 
 def fly_sets(
-    knot: KnotRow, plain: LcfResult, programs: Mapping[Formulation, Solved]
+    knot: KnotRow, plain: LcfResult, programs: Mapping[str, Solved]
 ) -> tuple[list[FlightRow], list[FlightTimesRow]]:
     """Fly LCF's set and the smallest set of each program; sets that are equal fly once.
 
@@ -60,7 +59,7 @@ def fly_sets(
     knot : KnotRow
     plain : LcfResult
         On one cut.
-    programs : mapping of Formulation to Solved
+    programs : mapping of str to Solved
         `opening` in mode turning-point, and `span` if it was asked for.
 
     Raises
@@ -71,7 +70,7 @@ def fly_sets(
     sets: dict[str, Supports] = {"lcf": plain.supports}
     for formulation, program in programs.items():
         if program.supports is not None:
-            sets[str(formulation)] = program.supports
+            sets[formulation] = program.supports
     flown: dict[Supports, Flown] = {}
     rows, times = [], []
     for name, supports in sets.items():
@@ -83,12 +82,12 @@ def fly_sets(
         spent = {key: cells.pop(key) for key in ("planning_seconds", "simulation_seconds")}
         place = (knot.number, knot.knot, str(plain.cable.cut), name)
         chosen = GivenSupports(plain.cable, supports)
-        span = programs.get(Formulation.SPAN)
+        span = programs.get("span")
         rows.append(
             FlightRow(
                 *place,
                 robots=chosen.robots,
-                opening_open=programs[Formulation.OPENING].allows(chosen),
+                opening_open=programs["opening"].allows(chosen),
                 span_open=span.allows(chosen) if span else None,
                 **cells,
             )

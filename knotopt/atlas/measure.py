@@ -36,12 +36,10 @@ from knotopt.cable.cut import outer_cuts
 from knotopt.path.measures import both_methods, measure
 from knotopt.supports.lcf import LcfResult, lcf
 from knotopt.supports.minimal import find_backend
-from knotopt.supports.requirements import Formulation
 from knotopt.supports.selection import GivenSupports
 from knotopt.supports.support_set import SupportSet
 from knotopt.supports.threading import Threading
 from knotopt.verify.opening import check_opening
-from knotopt.verify.regions import define_regions
 from knotopt.verify.span import check_span
 
 _PACKAGES = ("numpy", "ortools")
@@ -163,11 +161,10 @@ def agrees_with_definition(cable: Cable, row: AtlasRow, settings: Settings) -> b
     row : AtlasRow
     settings : Settings
     """
-    regions = list(define_regions(cable.path, cable.diagram.size))
+    size = cable.diagram.size
 
     def is_open(supports: tuple[int, ...] | None, mode: Threading) -> bool:
-        size = cable.diagram.size
-        return check_opening(cable.path, size, supports or (), settings.r, mode, regions).is_open
+        return check_opening(cable.path, size, supports or (), settings.r, mode).is_open
 
     turning, over_under = Threading.TURNING_POINT, Threading.OVER_UNDER
     found = [
@@ -180,9 +177,7 @@ def agrees_with_definition(cable: Cable, row: AtlasRow, settings: Settings) -> b
     ]
     if row.span_supports is not None:
         found.append(
-            check_span(
-                cable.path, cable.diagram.size, row.span_supports, settings.r, over_under, regions
-            ).is_open
+            check_span(cable.path, size, row.span_supports, settings.r, over_under).is_open
         )
     return all(found)
 
@@ -194,14 +189,14 @@ def _measure_cut(
     with clock("lcf"):
         plain = lcf(cable)
         layered = lcf(cable, layered=True)
-    opening = solve(plain, settings, Formulation.OPENING, Threading.TURNING_POINT)
-    over_under = solve(plain, settings, Formulation.OPENING, Threading.OVER_UNDER)
+    opening = solve(plain, settings, "opening")
+    over_under = solve(plain, settings, "opening", Threading.OVER_UNDER)
     span = try_span(plain, settings)
     more: dict[str, Sequence[Any]] = {}
     if settings.paths:
         with clock("paths"):
             more[PATHS] = _paths(knot, plain, opening)
-    programs = {Formulation.OPENING: opening, **({Formulation.SPAN: span} if span else {})}
+    programs = {"opening": opening, **({"span": span} if span else {})}
     if settings.solvers:
         more[SOLVERS], more[SOLVER_TIMES] = compare_solvers(
             knot, plain.cable, programs, settings, checked=checked

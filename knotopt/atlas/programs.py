@@ -11,7 +11,7 @@ from knotopt.atlas.schema import Settings
 from knotopt.errors import RequirementError
 from knotopt.supports.lcf import LcfResult
 from knotopt.supports.minimal import compile_program, find_backend
-from knotopt.supports.requirements import Formulation, Requirements
+from knotopt.supports.requirements import Requirements
 from knotopt.supports.support_set import SupportSet
 from knotopt.supports.threading import Threading
 
@@ -38,7 +38,7 @@ class Solved:
 
 
 def solve(
-    plain: LcfResult, settings: Settings, formulation: Formulation, threading: Threading
+    plain: LcfResult, settings: Settings, formulation: str, threading: Threading | None = None
 ) -> Solved:
     """Compile a program and solve it.
 
@@ -63,6 +63,6 @@ def try_span(plain: LcfResult, settings: Settings) -> Solved | None:
     if not settings.span:
         return None
     try:
-        return solve(plain, settings, Formulation.SPAN, Threading.OVER_UNDER)
+        return solve(plain, settings, "span")
     except RequirementError:
         return None

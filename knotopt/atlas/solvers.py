@@ -13,11 +13,7 @@ from knotopt.atlas.programs import Solved
 from knotopt.atlas.schema import KnotRow, Settings
 from knotopt.cable.cable import Cable
 from knotopt.supports.minimal import find_backend
-from knotopt.supports.requirements import Formulation
-from knotopt.supports.threading import Threading
-from knotopt.verify.opening import check_opening
-from knotopt.verify.regions import DefinedRegion, define_regions
-from knotopt.verify.span import check_span
+from knotopt.supports.registry import find_formulation
 
 REFUSED = "refused"
 PACKAGES = {
@@ -33,7 +29,7 @@ PACKAGES = {
 def compare_solvers(
     knot: KnotRow,
     cable: Cable,
-    programs: Mapping[Formulation, Solved],
+    programs: Mapping[str, Solved],
     settings: Settings,
     *,
     checked: bool,
@@ -45,7 +41,7 @@ def compare_solvers(
     knot : KnotRow
     cable : Cable
         On one cut.
-    programs : mapping of Formulation to Solved
+    programs : mapping of str to Solved
         `opening` in mode turning-point, `span` in mode over-under.
     settings : Settings
     checked : bool
@@ -58,7 +54,6 @@ def compare_solvers(
     KeyboardInterrupt
         Ctrl-C, also where a solver caught it.
     """
-    regions = list(define_regions(cable.path, cable.diagram.size)) if checked else None
     rows, times = [], []
     for formulation, program in programs.items():
         for solver in settings.solvers:
@@ -66,14 +61,14 @@ def compare_solvers(
             began = time.perf_counter()
             status, solution = _ask(solver, program.instance, settings)
             seconds = time.perf_counter() - began
-            place = (knot.number, knot.knot, str(cable.cut), str(formulation), solver)
+            place = (knot.number, knot.knot, str(cable.cut), formulation, solver)
             chosen = solution.chosen
             satisfies = None if status != Status.ERROR else False
             meets = None
             if chosen is not None:
                 satisfies = not program.instance.violated(program.instance.complete(chosen))
-                if regions is not None:
-                    meets = _is_open(cable, formulation, chosen[1:-1], settings, regions)
+                if checked:
+                    meets = _is_open(cable, formulation, chosen[1:-1], settings)
             rows.append(
                 SolverRow(
                     *place,
@@ -110,16 +105,8 @@ def _ask(solver: str, instance: Instance, settings: Settings) -> tuple[str, Solu
     return str(solution.status), solution
 
 
-def _is_open(
-    cable: Cable,
-    formulation: Formulation,
-    supports: tuple[int, ...],
-    settings: Settings,
-    regions: list[DefinedRegion],
-) -> bool:
-    size, r = cable.diagram.size, settings.r
-    if formulation is Formulation.SPAN:
-        mode = Threading.OVER_UNDER
-        return check_span(cable.path, size, supports, r, mode, regions).is_open
-    mode = Threading.TURNING_POINT
-    return check_opening(cable.path, size, supports, r, mode, regions).is_open
+def _is_open(cable: Cable, name: str, supports: tuple[int, ...], settings: Settings) -> bool:
+    formulation = find_formulation(name)
+    mode = formulation.threading[0]
+    size = cable.diagram.size
+    return formulation.check(cable.path, size, supports, settings.r, mode).is_open

@@ -15,7 +15,9 @@ import typer
 from formulations.backends import BACKENDS
 from formulations.solution import BackendError, Limits
 from knotopt.errors import SolverError
+from knotopt.supports.registry import FORMULATIONS
 from knotopt.supports.requirements import Requirements
+from knotopt.supports.threading import Threading
 
 if TYPE_CHECKING:
     from knotopt.catalogue.lookup import NamedDiagram
@@ -104,15 +106,16 @@ FormulationOption = Annotated[
     str,
     typer.Option(
         metavar="NAME",
-        help="opening (polygons through the grid's crossings) or span (the taut cable itself).",
+        help=" or ".join(f"{each.name} ({each.words})" for each in FORMULATIONS.values()) + ".",
     ),
 ]
 ThreadingOption = Annotated[
     str | None,
     typer.Option(
         metavar="NAME",
-        help="What threads a region: turning-point or over-under; by default the former for "
-        "opening, the latter for span.",
+        help=f"What threads a region: {' or '.join(Threading)}; by default "
+        + ", ".join(f"{each.threading[0]} for {each.name}" for each in FORMULATIONS.values())
+        + ".",
     ),
 ]
 OpennessOption = Annotated[float | None, openness_option()]

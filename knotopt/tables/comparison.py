@@ -18,8 +18,7 @@ from knotopt.diagram.grid import GridDiagram
 from knotopt.path import measures
 from knotopt.path.measures import PathMeasures, both_methods, measure
 from knotopt.supports.lcf import LcfResult, lcf_by_cut
-from knotopt.supports.minimal import defined_regions
-from knotopt.supports.requirements import Formulation, Requirements
+from knotopt.supports.requirements import Requirements
 from knotopt.supports.search import CutSearch, best_supports
 from knotopt.verify.opening import check_opening
 
@@ -100,14 +99,14 @@ def compare(
     (14, 5, False, 6, 9)
     """
     chosen = tuple(crossing_free_cuts(diagram) if cuts is None else cuts)
-    opening = Requirements(Formulation.OPENING, openness)
-    span = Requirements(Formulation.SPAN, openness)
+    opening = Requirements("opening", openness)
+    span = Requirements("span", openness)
     began = time.perf_counter()
     plain = _fewest(lcf_by_cut(diagram, cuts=chosen).values())
     lcf_seconds = time.perf_counter() - began
     layered = _fewest(lcf_by_cut(diagram, layered=True, cuts=chosen).values())
-    searches: dict[Formulation, CutSearch] = {}
-    seconds: dict[Formulation, float] = {}
+    searches: dict[str, CutSearch] = {}
+    seconds: dict[str, float] = {}
     for asked in (opening, span):
         began = time.perf_counter()
         searches[asked.formulation] = best_supports(
@@ -116,7 +115,7 @@ def compare(
         seconds[asked.formulation] = time.perf_counter() - began
         if searches[asked.formulation].interrupted:
             raise KeyboardInterrupt
-    by_opening, by_span = searches[Formulation.OPENING], searches[Formulation.SPAN]
+    by_opening, by_span = searches["opening"], searches["span"]
     return ComparisonRow(
         knot=name,
         source=source,
@@ -135,11 +134,11 @@ def compare(
         opening_robots=by_opening.best.robots if by_opening.best.found else None,
         opening_cut=str(by_opening.best.cable.cut),
         opening_proven=by_opening.is_proven,
-        opening_seconds=round(seconds[Formulation.OPENING], 6),
+        opening_seconds=round(seconds["opening"], 6),
         span_robots=by_span.best.robots if by_span.best.found else None,
         span_cut=str(by_span.best.cable.cut),
         span_proven=by_span.is_proven,
-        span_seconds=round(seconds[Formulation.SPAN], 6),
+        span_seconds=round(seconds["span"], 6),
         paths=(
             *(measure(path, "lcf") for path in both_methods(plain)),
             *(
@@ -159,7 +158,6 @@ def is_open(result: LcfResult, requirements: Requirements) -> bool:
         result.supports,
         requirements.openness,
         requirements.threading,
-        defined_regions(result.regions),
     ).is_open
 
 

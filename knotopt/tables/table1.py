@@ -23,7 +23,7 @@ from knotopt.path.measures import PathMeasures, both_methods, measure
 from knotopt.path.result import PathResult
 from knotopt.supports.lcf import LcfResult, best_cut
 from knotopt.supports.minimal import MinimalSupports, minimal_supports
-from knotopt.supports.requirements import Formulation, Requirements
+from knotopt.supports.requirements import Requirements
 from knotopt.supports.search import best_supports
 
 Support = tuple[int, int, int]
@@ -202,8 +202,8 @@ def _result(grid: Table1Grid) -> Table1Result:
     result = best_cut(grid.diagram)
     cable = result.cable
     longest = max((len(run) for run in find_staircases(cable, min_length=1)), default=0)
-    opening, opening_same, opening_proven = _smallest(cable, Requirements(Formulation.OPENING))
-    span, span_same, span_proven = _smallest(cable, Requirements(Formulation.SPAN))
+    opening, opening_same, opening_proven = _smallest(cable, Requirements("opening"))
+    span, span_same, span_proven = _smallest(cable, Requirements("span"))
     row = Table1Row(
         row=grid.row,
         knot=grid.knot,
