@@ -25,7 +25,7 @@ from knotopt.cli.printing import print_json, print_note, print_table, print_writ
 from knotopt.cli.progress import track
 
 if TYPE_CHECKING:
-    from knotopt.verify.certificate import Verdict
+    from knotopt.verify.certificate import CheckedCertificate
 
 
 def prove(
@@ -185,7 +185,7 @@ def check(
         raise typer.Exit(1)
 
 
-def _is_shipped(verdict: Verdict) -> bool:
+def _is_shipped(verdict: CheckedCertificate) -> bool:
     """Whether the grid is one that this package has under the certificate's name."""
     from knotopt.catalogue.knots import shipped_knots
     from knotopt.catalogue.table1_grids import table1_grids

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import logging
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,9 +18,12 @@ from knotopt.flight.route import HeightShape, SpanRoute, SpanShape
 from knotopt.flight.router import Router, RouteShape
 from knotopt.flight.word import Letter
 from knotopt.rehearsal.observer import Observer
-from knotopt.sim.simulation import Checkpoint, Simulation
+from knotopt.sim.simulation import Checkpoint
+from knotopt.sim.simulators import MUJOCO, Simulator
 from knotopt.verify.flight import leader_events
 from knotopt.verify.flight_word import reduced_word
+
+logger = logging.getLogger(__name__)
 
 SHAPES = tuple(
     SpanShape(RouteShape(run, apart), HeightShape(above, below))
@@ -68,8 +72,7 @@ class RehearsedFlight:
         Cable of each span over what these routes need.
     shapes : tuple of SpanShape
         To be tried at every crossing, in order.
-    tell : callable
-        Is told what was flown.
+    simulator : Simulator
     """
 
     def __init__(
@@ -77,15 +80,15 @@ class RehearsedFlight:
         planner: FlightPlanner,
         spare: FloatArray,
         shapes: tuple[SpanShape, ...],
-        tell: Callable[[str], None],
+        simulator: Simulator = MUJOCO,
     ) -> None:
-        self.planner, self.shapes, self.tell = planner, shapes, tell
+        self.planner, self.shapes = planner, shapes
         planner.frozen = planner.frozen[:0]
         formation = planner.space_out()
         self.lengths = planner.cable_lengths(formation) * spare
         self.along = formation.begin
         self.first = formation.positions(np.array([self.along]))[0]
-        self.simulation = Simulation(
+        self.simulation = simulator.start(
             self.first,
             self.lengths,
             step=planner.world.step,
@@ -151,7 +154,7 @@ class RehearsedFlight:
 
     def _next_crossing(self, span: int, word: tuple[Letter, ...], done: int) -> None:
         """Fly through gate `done` (from 0) of a span, or from the last one to the next robot."""
-        start, spans = self.simulation.state(), list(self.planner.spans)
+        start, spans = self.simulation.checkpoint(), list(self.planner.spans)
         along = self.along
         best: _Leg | None = None
         for route in self._ways_on(span, word, done):
@@ -172,7 +175,7 @@ class RehearsedFlight:
         name = f"span {span} {word[done]}" if done < len(word) else f"the end of span {span}"
         if best.wrong:
             self.failed.append(name)
-        self.tell(f"{name}: {'as planned' if not best.wrong else 'not as planned'}")
+        logger.info("%s: %s", name, "as planned" if not best.wrong else "not as planned")
 
     def _take(self, leg: _Leg) -> None:
         """Make what was flown part of the flight: the route up to here changes no more."""
@@ -239,7 +242,8 @@ class RehearsedFlight:
         self.ways += 1
         wrong, near = self._judged(span, gates)
         wrong += 0 if finished else STUCK
-        return _Leg(wrong, near, finished, route, timing, positions[1:], simulation.state())
+        logger.debug("way %d: %d letters wrong, %d crossings near it", self.ways, wrong, near)
+        return _Leg(wrong, near, finished, route, timing, positions[1:], simulation.checkpoint())
 
     def _judged(self, span: int, gates: int) -> tuple[int, int]:
         """Letters of a span's word so far that are wrong, and crossings that were near to it.

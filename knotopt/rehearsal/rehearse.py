@@ -7,22 +7,24 @@ simulation goes back and other shapes of the way are tried.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+import logging
+from dataclasses import replace
 
 import numpy as np
 
 from knotopt.arrays import FloatArray
 from knotopt.cable.cable import Cable
 from knotopt.errors import RequirementError
-from knotopt.flight.limits import RANGES, ROOM, FlightLimits
+from knotopt.flight.limits import RANGES, FlightLimits
 from knotopt.flight.plan import FlightPlan
-from knotopt.flight.planner import SCHEDULES, FlightPlanner
-from knotopt.flight.record import Disturbance, FlightRecord
+from knotopt.flight.planner import FlightPlanner
+from knotopt.flight.record import Disturbance
+from knotopt.flight.request import FlightRequest
 from knotopt.flight.route import SpanShape
 from knotopt.path.world import World
 from knotopt.rehearsal.attempt import SHAPES, RehearsedFlight
-from knotopt.sim.judge import Outcome, Verdict
+from knotopt.rehearsal.flown_set import FlownSet
+from knotopt.sim.simulators import MUJOCO, Simulator
 from knotopt.sim.trials import fly_trial, fly_trials
 
 TRIALS = tuple(Disturbance(noise=0.01, seed=seed) for seed in (101, 102, 103))
@@ -41,83 +43,20 @@ MODELLED = (
 multiplied by, share of the slack, shape. The cable of a long span hangs in a deep bight between
 robots that follow each other closely, and catches on tethers when it is pulled out of it."""
 
+logger = logging.getLogger(__name__)
+
 WIDEN = 1.15  # of the file's spacing, where robots came too near each other
 FARTHER = 0.5  # that the file is started each time [grid steps] where they still do
 FILES, FLOWN = 40, 2  # such files that are looked at, and flown, at most
 MORE = 1.1  # cable of a span where robots got stuck
 
 
-@dataclass(frozen=True)
-class Rehearsal:
-    """What came of planning by rehearsal.
-
-    Attributes
-    ----------
-    plan : FlightPlan
-        Its schedule is "rehearsed" where the optimised one did not tie the knot.
-    record : FlightRecord
-    verdict : Verdict
-        Of the plan flown without disturbance.
-    robust : int
-        Of the `TRIALS` disturbed flights it was tried in, how many tied the knot. The plan was
-        chosen by these: its success rate is for other disturbances to tell.
-    separation : float
-        Least distance of two robots, 1 on the ellipsoid of the limits.
-    steady : float
-        Duration of the same flight at one path speed throughout [s].
-    failed : tuple of str
-        Crossings that no way tried made happen, in the order of flight.
-    rehearsals, ways : int
-        Flights begun anew, and ways from crossing to crossing that were simulated; none where a
-        modelled route is flown.
-    """
-
-    plan: FlightPlan
-    record: FlightRecord
-    verdict: Verdict
-    robust: int
-    separation: float
-    steady: float
-    failed: tuple[str, ...]
-    rehearsals: int
-    ways: int
-
-    @property
-    def is_tied(self) -> bool:
-        """Whether the undisturbed flight ties the knot wanted."""
-        return self.verdict.outcome is Outcome.TIED
-
-    @property
-    def against(self) -> str:
-        """What speaks against flying it, "" if nothing does."""
-        if not self.is_tied:
-            return str(self.verdict)
-        if self.separation < 1:
-            return f"robots come within {self.separation:.2f} of their separation"
-        return ""
-
-    def noted(self, *notes: str) -> Rehearsal:
-        """The rehearsal with further notes of its plan."""
-        return replace(self, plan=self.plan.noted(*notes))
-
-    @property
-    def rank(self) -> tuple[bool, bool, int, int]:
-        """Larger is better: tied, robots apart, robust, few crossings failed."""
-        return self.is_tied, self.separation >= 1, self.robust, -len(self.failed)
-
-
 class _Judge:
-    """Flies plans, undisturbed and disturbed, and keeps the best.
+    """Flies plans, undisturbed and disturbed, and keeps the best."""
 
-    Parameters
-    ----------
-    tell : callable
-        Is told what came of each.
-    """
-
-    def __init__(self, tell: Callable[[str], None]) -> None:
-        self.tell = tell
-        self.best: Rehearsal | None = None
+    def __init__(self, simulator: Simulator) -> None:
+        self.simulator = simulator
+        self.best: FlownSet | None = None
 
     def fly(
         self,
@@ -125,35 +64,29 @@ class _Judge:
         plan: FlightPlan,
         planner: FlightPlanner,
         steady: float,
-        failed: tuple[str, ...] = (),
-    ) -> Rehearsal:
-        """Fly a plan of the planner's routes; `failed` are crossings that were given up."""
-        trial = fly_trial(plan)
-        robust = sum(each.is_tied for each in fly_trials(plan, TRIALS)) if trial.is_tied else 0
+        given_up: tuple[str, ...] = (),
+    ) -> FlownSet:
+        """Fly a plan of the planner's routes; crossings were given up in its rehearsal."""
+        flight = fly_trial(plan, simulator=self.simulator)
+        robust, trials = 0, ""
+        if flight.is_tied:
+            robust = sum(each.is_tied for each in fly_trials(plan, TRIALS, self.simulator))
+            trials = f"; disturbed {robust} of {len(TRIALS)}"
+        logger.info("%s, %s schedule: %s%s", what, plan.schedule, flight.verdict, trials)
         separation = planner.formation().separation
-        found = Rehearsal(
-            plan, trial.record, trial.verdict, robust, separation, steady, failed, 0, 0
-        )
-        self.tell(
-            f"{what}, {plan.schedule} schedule: {trial.verdict}"
-            + (f"; disturbed {robust} of {len(TRIALS)}" if trial.is_tied else "")
-        )
-        if self.best is None or found.rank > self.best.rank:
-            self.best = found
-        return found
+        flown = FlownSet(flight, (), robust, separation, steady, given_up)
+        if self.best is None or flown.rank > self.best.rank:
+            self.best = flown
+        return flown
 
 
 def rehearse_flight(
-    name: str,
     cable: Cable,
     supports: tuple[int, ...],
-    chosen_by: str = "all",
-    world: World = ROOM,
-    limits: FlightLimits | None = None,
-    schedule: str = "optimised",
-    tell: Callable[[str], None] | None = None,
+    request: FlightRequest,
     attempts: int = 6,
-) -> Rehearsal:
+    simulator: Simulator = MUJOCO,
+) -> FlownSet:
     """Plan a flight, span by span, past the cable as it lies in a simulation.
 
     With a robot at every turning point modelled routes are tried first, in a wider file and with
@@ -162,12 +95,13 @@ def rehearse_flight(
 
     Parameters
     ----------
-    name, cable, supports, chosen_by, world, limits, schedule
-        As for `knotopt.flight.planner.plan_flight`.
-    tell : callable, optional
-        Is told what is being flown.
+    cable : Cable
+    supports : tuple of int
+        Turning points with a support robot (1-based).
+    request : FlightRequest
     attempts : int
         Flights that are begun anew at most, until one ties the knot whatever disturbs it.
+    simulator : Simulator
 
     Raises
     ------
@@ -176,12 +110,11 @@ def rehearse_flight(
     MissingExtraError
         MuJoCo is not installed (extra `sim`).
     """
-    if schedule not in SCHEDULES:
-        raise RequirementError(f"a schedule is one of {', '.join(SCHEDULES)}, not {schedule!r}")
     if attempts < 1:
         raise RequirementError(f"a flight is rehearsed once or more, not {attempts} times")
-    limits = limits or FlightLimits()
-    judge = _Judge(tell or (lambda _: None))
+    name, chosen_by, schedule = request.name, request.chosen_by, request.schedule
+    world, limits = request.world, request.limits
+    judge = _Judge(simulator)
     if len(supports) == len(cable.path) - 2:
         safe = _fly_modelled(judge, cable, supports, world, limits, (name, chosen_by), schedule)
         if safe is not None:
@@ -196,7 +129,7 @@ def rehearse_flight(
     for number, (spare, first) in enumerate(ATTEMPTS[:attempts], 1):
         planner.spans[:] = modelled
         shapes = SHAPES[first:] + SHAPES[:first]
-        run = RehearsedFlight(planner, np.where(crosses, spare, 1.0) * more, shapes, judge.tell)
+        run = RehearsedFlight(planner, np.where(crosses, spare, 1.0) * more, shapes, simulator)
         stuck = run.fly()
         if stuck is not None:
             more[stuck - 1] *= MORE
@@ -227,7 +160,7 @@ def _fly_modelled(
     limits: FlightLimits,
     about: tuple[str, str],
     schedule: str,
-) -> Rehearsal | None:
+) -> FlownSet | None:
     """The first modelled route that ties the knot whatever disturbs it, if there is one."""
     for widening, share, shape in MODELLED:
         spacing = min(widening * limits.spacing, RANGES["spacing"][1])
@@ -257,7 +190,7 @@ def _fly_from_farther(
 
     The leader's way and its crossings stay; the robots behind are elsewhere when it comes back.
     """
-    failed, flights = judge.best.failed if judge.best else (), 0
+    failed, flights = judge.best.given_up if judge.best else (), 0
     for _ in range(FILES):
         planner.start_farther(FARTHER)
         formation = planner.formation()

@@ -34,7 +34,7 @@ MAX_COUNT = 20_000  # sets that a proof by counting may examine
 
 
 @dataclass(frozen=True)
-class Verdict:
+class CheckedCertificate:
     """What a certificate was found to prove.
 
     Attributes
@@ -65,7 +65,7 @@ class Verdict:
     grid: tuple[Cell, ...]
 
 
-def check_certificate(text: str) -> Verdict:
+def check_certificate(text: str) -> CheckedCertificate:
     """Check a certificate from the definitions alone.
 
     Raises
@@ -112,7 +112,7 @@ def check_certificate(text: str) -> Verdict:
         raise CertificateError(
             f"the bound is claimed for every cut, but none is given for {missing}"
         )
-    return Verdict(
+    return CheckedCertificate(
         _get(certificate, "knot", str),
         formulation,
         mode,

@@ -13,17 +13,17 @@ from knotopt.rehearsal import rehearse
 pytest.importorskip("mujoco")
 
 from knotopt import Cable, shipped_knots
-from knotopt.errors import RequirementError
 from knotopt.flight.examine import examine_plan
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.planner import FlightPlanner
-from knotopt.flight.record import Disturbance
+from knotopt.flight.request import FlightRequest
 from knotopt.rehearsal.attempt import SHAPES, RehearsedFlight
 from knotopt.rehearsal.observer import Observer
 from knotopt.rehearsal.rehearse import rehearse_flight
 from knotopt.sim.judge import Outcome
 from knotopt.sim.simulation import Simulation
+from knotopt.sim.simulators import MUJOCO
 from knotopt.sim.trials import fly_trial
 from knotopt.supports.requirements import Requirements
 from knotopt.supports.selection import choose_supports
@@ -41,7 +41,7 @@ def flown() -> RehearsedFlight:
     planner = FlightPlanner(chosen.cable, chosen.supports, ROOM, FlightLimits())
     planner.plan_routes(SHAPES[0])
     crosses = np.array([len(word) > 0 for word in planner.words])
-    run = RehearsedFlight(planner, np.where(crosses, 1.1, 1.0), SHAPES, lambda _: None)
+    run = RehearsedFlight(planner, np.where(crosses, 1.1, 1.0), SHAPES)
     assert run.fly() is None
     return run
 
@@ -94,7 +94,7 @@ def test_robots_that_came_too_near_fly_the_route_in_a_longer_file() -> None:
     planner = run.planner.copy()
     planner.limits = replace(planner.limits, separation=0.31, spacing=0.31)  # more than it has
     tight = planner.formation().separation
-    judge = rehearse._Judge(lambda _: None)
+    judge = rehearse._Judge(MUJOCO)
     plan = planner.plan("3_1", "lcf", "fixed", run.lengths)
     judge.fly("as it is", plan, planner, plan.duration)
     assert tight < 1 and judge.best is not None and judge.best.separation == tight
@@ -125,16 +125,10 @@ def test_the_leader_is_at_its_crossings_when_the_plan_says_so() -> None:
 
 def test_without_supports_nothing_is_tied() -> None:
     cable = Cable(shipped_knots()["3_1"].diagram, "L+")
-    found = rehearse_flight("3_1", cable, (), attempts=1)
+    found = rehearse_flight(cable, (), FlightRequest("3_1"), attempts=1)
     assert not found.is_tied
     assert found.plan.robots == 2 and found.plan.crossings == ()
     assert measured(found.plan).broken == ()
-
-
-def test_a_schedule_of_no_such_name() -> None:
-    cable = Cable(shipped_knots()["3_1"].diagram, "L+")
-    with pytest.raises(RequirementError, match="fastest"):
-        rehearse_flight("3_1", cable, (), attempts=1, schedule="fastest")
 
 
 def hovering(away: float) -> tuple[FlightPlanner, Simulation]:
@@ -146,7 +140,7 @@ def hovering(away: float) -> tuple[FlightPlanner, Simulation]:
     robots = np.column_stack((flat, np.full(len(flat), ROOM.altitude)))
     robots[2, :2] += away * (flat[1] - flat[2]) / np.hypot(*(flat[1] - flat[2]))
     lengths = np.array(planner.lengths) * ROOM.step
-    simulation = Simulation(robots, lengths, step=ROOM.step, speed=0.6, disturbance=Disturbance())
+    simulation = MUJOCO.start(robots, lengths, step=ROOM.step, speed=0.6)
     simulation.follow(np.repeat(robots[None], 60, axis=0), 0.05)
     return planner, simulation
 
@@ -179,10 +173,13 @@ def test_the_height_of_cable_is_seen() -> None:
 def test_the_smallest_set_ties_the_trefoil_the_same_way_twice() -> None:
     diagram = shipped_knots()["3_1"].diagram
     chosen = choose_supports(diagram, "milp", "best", Requirements("span", 0.25))
-    one, other = (rehearse_flight("3_1", chosen.cable, chosen.supports, "milp") for _ in range(2))
-    assert one.is_tied and one.failed == ()
+    one, other = (
+        rehearse_flight(chosen.cable, chosen.supports, FlightRequest("3_1", "milp"))
+        for _ in range(2)
+    )
+    assert one.is_tied and one.given_up == ()
     assert one.separation >= 1 and measured(one.plan).broken == ()
     assert_leader_is_at_its_crossings(one.plan, 0.03)
     assert np.array_equal(one.plan.positions, other.plan.positions)
-    assert np.array_equal(one.record.cable, other.record.cable)
+    assert np.array_equal(one.undisturbed.record.cable, other.undisturbed.record.cable)
     assert (one.robust, one.ways, one.rehearsals) == (other.robust, other.ways, other.rehearsals)

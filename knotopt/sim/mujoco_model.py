@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from knotopt.arrays import FloatArray, IntArray
-from knotopt.errors import MissingExtraError, RequirementError
+from knotopt.errors import RequirementError
 from knotopt.sim.material import Material
 
 if TYPE_CHECKING:
@@ -62,15 +62,11 @@ def cable_model(lengths: FloatArray, step: float, material: Material, dt: float)
 
     Raises
     ------
-    MissingExtraError
-        MuJoCo is not installed.
     RequirementError
         A cable too thick for its edges, or too stiff for the time step.
     """
-    try:
-        import mujoco
-    except ImportError as error:
-        raise MissingExtraError("mujoco", "sim", "simulating a flight") from error
+    import mujoco
+
     counts = np.maximum(LEAST_EDGES, np.round(lengths / (material.edge * step))).astype(np.int64)
     edges = np.repeat(lengths / counts, counts)
     if edges.min() < 3 * material.radius:
