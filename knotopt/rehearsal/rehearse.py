@@ -15,8 +15,9 @@ import numpy as np
 from knotopt.arrays import FloatArray
 from knotopt.cable.cable import Cable
 from knotopt.errors import RequirementError
+from knotopt.flight.grid_layout import layout_of_supports
 from knotopt.flight.limits import RANGES, ROOM, FlightLimits
-from knotopt.flight.plan import FlightPlan
+from knotopt.flight.plan import FlightPlan, MotionPlan, with_supports
 from knotopt.flight.planner import SCHEDULES, FlightPlanner
 from knotopt.flight.record import Disturbance, FlightRecord
 from knotopt.flight.route import SpanShape
@@ -111,23 +112,28 @@ class _Judge:
 
     Parameters
     ----------
+    plan_of : callable
+        The flight plan with a motion: of which knot and supports.
     tell : callable
         Is told what came of each.
     """
 
-    def __init__(self, tell: Callable[[str], None]) -> None:
-        self.tell = tell
+    def __init__(
+        self, plan_of: Callable[[MotionPlan], FlightPlan], tell: Callable[[str], None]
+    ) -> None:
+        self.plan_of, self.tell = plan_of, tell
         self.best: Rehearsal | None = None
 
     def fly(
         self,
         what: str,
-        plan: FlightPlan,
+        motion: MotionPlan,
         planner: FlightPlanner,
         steady: float,
         failed: tuple[str, ...] = (),
     ) -> Rehearsal:
-        """Fly a plan of the planner's routes; `failed` are crossings that were given up."""
+        """Fly a motion on the planner's routes; `failed` are crossings that were given up."""
+        plan = self.plan_of(motion)
         trial = fly_trial(plan)
         robust = sum(each.is_tied for each in fly_trials(plan, TRIALS)) if trial.is_tied else 0
         separation = planner.formation().separation
@@ -181,65 +187,57 @@ def rehearse_flight(
     if attempts < 1:
         raise RequirementError(f"a flight is rehearsed once or more, not {attempts} times")
     limits = limits or FlightLimits()
-    judge = _Judge(tell or (lambda _: None))
+    judge = _Judge(
+        lambda motion: with_supports(motion, name, cable, supports, chosen_by),
+        tell or (lambda _: None),
+    )
+    layout = layout_of_supports(cable, supports)
     if len(supports) == len(cable.path) - 2:
-        safe = _fly_modelled(judge, cable, supports, world, limits, (name, chosen_by), schedule)
+        safe = _fly_modelled(judge, FlightPlanner(layout, world, limits), schedule)
         if safe is not None:
             return safe
-    planner = FlightPlanner(cable, supports, world, limits)
-    planner.plan_routes(SHAPES[0])
-    modelled = list(planner.spans)
-    crosses = np.array([len(word) > 0 for word in planner.words])
+    modelled = FlightPlanner(layout, world, limits).with_routes(SHAPES[0])
+    crosses = np.array([len(word) > 0 for word in layout.words])
     more = np.ones(len(crosses))  # cable, where robots got stuck
     ways = 0
     flown: tuple[FlightPlanner, FloatArray] | None = None  # of the best rehearsal
     for number, (spare, first) in enumerate(ATTEMPTS[:attempts], 1):
-        planner.spans[:] = modelled
         shapes = SHAPES[first:] + SHAPES[:first]
-        run = RehearsedFlight(planner, np.where(crosses, spare, 1.0) * more, shapes, judge.tell)
+        run = RehearsedFlight(modelled, np.where(crosses, spare, 1.0) * more, shapes, judge.tell)
         stuck = run.fly()
         if stuck is not None:
             more[stuck - 1] *= MORE
         ways += run.ways
-        plans = [run.rehearsed(name, chosen_by)]
-        steady = planner.plan(name, chosen_by, "fixed", run.lengths).duration
+        motions = [run.motion()]
+        steady = run.planner.motion("fixed", run.lengths).duration
         if stuck is None:
-            plans.insert(0, planner.plan(name, chosen_by, schedule, run.lengths))
-        for plan in plans:
-            found = judge.fly(f"rehearsal {number}", plan, planner, steady, tuple(run.failed))
+            motions.insert(0, run.planner.motion(schedule, run.lengths))
+        for motion in motions:
+            found = judge.fly(f"rehearsal {number}", motion, run.planner, steady, tuple(run.failed))
             if found.robust == len(TRIALS) and found.separation >= 1:
                 return replace(found, rehearsals=number, ways=ways)
             if judge.best is found:
-                flown = planner.copy(), run.lengths
-        if found.separation < 1:
-            planner.spacing *= WIDEN
+                flown = run.planner, run.lengths
+        wider = WIDEN if found.separation < 1 else 1.0
+        modelled = modelled.with_spacing(wider * run.planner.spacing)
     assert judge.best is not None
     if judge.best.is_tied and judge.best.separation < 1 and flown is not None:
-        _fly_from_farther(judge, *flown, (name, chosen_by), schedule)
+        _fly_from_farther(judge, *flown, schedule)
     return replace(judge.best, rehearsals=len(ATTEMPTS[:attempts]), ways=ways)
 
 
-def _fly_modelled(
-    judge: _Judge,
-    cable: Cable,
-    supports: tuple[int, ...],
-    world: World,
-    limits: FlightLimits,
-    about: tuple[str, str],
-    schedule: str,
-) -> Rehearsal | None:
+def _fly_modelled(judge: _Judge, planner: FlightPlanner, schedule: str) -> Rehearsal | None:
     """The first modelled route that ties the knot whatever disturbs it, if there is one."""
+    limits = planner.limits
     for widening, share, shape in MODELLED:
         spacing = min(widening * limits.spacing, RANGES["spacing"][1])
         slack = share * limits.slack
-        planner = FlightPlanner(
-            cable, supports, world, replace(limits, spacing=spacing, slack=slack)
-        )
-        planner.plan_routes(shape)
-        plan = planner.plan(*about, schedule)
-        steady = planner.plan(*about, "fixed").duration
+        changed = replace(planner, limits=replace(limits, spacing=spacing, slack=slack))
+        planned = changed.with_routes(shape).spaced_out()
+        motion = planned.motion(schedule)
+        steady = planned.motion("fixed").duration
         found = judge.fly(
-            f"modelled route, spacing {spacing:g} m, slack {slack:g}", plan, planner, steady
+            f"modelled route, spacing {spacing:g} m, slack {slack:g}", motion, planned, steady
         )
         if found.robust == len(TRIALS):
             return found
@@ -247,11 +245,7 @@ def _fly_modelled(
 
 
 def _fly_from_farther(
-    judge: _Judge,
-    planner: FlightPlanner,
-    lengths: FloatArray,
-    about: tuple[str, str],
-    schedule: str,
+    judge: _Judge, planner: FlightPlanner, lengths: FloatArray, schedule: str
 ) -> None:
     """Fly a rehearsed route once more in files that are longer until the robots keep apart.
 
@@ -259,13 +253,13 @@ def _fly_from_farther(
     """
     failed, flights = judge.best.failed if judge.best else (), 0
     for _ in range(FILES):
-        planner.start_farther(FARTHER)
+        planner = planner.started_farther(FARTHER)
         formation = planner.formation()
         if formation.separation < 1 or (formation.farthest > lengths).any():
             continue
-        plan = planner.plan(*about, schedule, lengths)
-        steady = planner.plan(*about, "fixed", lengths).duration
-        found = judge.fly(f"spacing {planner.spacing:.2f} m", plan, planner, steady, failed)
+        motion = planner.motion(schedule, lengths)
+        steady = planner.motion("fixed", lengths).duration
+        found = judge.fly(f"spacing {planner.spacing:.2f} m", motion, planner, steady, failed)
         flights += 1
         if found.robust == len(TRIALS) or flights == FLOWN:
             return

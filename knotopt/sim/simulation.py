@@ -15,7 +15,7 @@ import numpy as np
 
 from knotopt.arrays import FloatArray, IntArray
 from knotopt.errors import RequirementError
-from knotopt.flight.plan import FlightPlan
+from knotopt.flight.plan import MotionPlan
 from knotopt.flight.record import Disturbance, FlightRecord
 from knotopt.sim.hanging import cable_at_rest, check_start
 from knotopt.sim.material import Material
@@ -351,7 +351,7 @@ class Simulation:
 
 
 def simulate(
-    plan: FlightPlan,
+    plan: MotionPlan,
     disturbance: Disturbance | None = None,
     material: Material | None = None,
     dt: float = DT,
@@ -360,7 +360,7 @@ def simulate(
 
     Parameters
     ----------
-    plan : FlightPlan
+    plan : MotionPlan
     disturbance : Disturbance
         None by default.
     material : Material
