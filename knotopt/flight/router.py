@@ -17,7 +17,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
 from knotopt.arrays import FloatArray, IntArray
-from knotopt.flight.word import Letter
+from knotopt.flight.layout import Letter
 
 LATTICE = 0.2  # between nodes
 MARGIN = 2.5  # free room around everything
@@ -189,7 +189,7 @@ class Router:
     def candidates(self, letter: Letter, crossed: Crossed) -> list[Gate]:
         """Gates for a letter: places on its span between that span's neighbouring crossings."""
         line = self.laid[letter.older - 1]
-        first = letter.first
+        first = letter.rank
         others = [(t, a) for t, a in crossed.get(letter.older, ()) if t is not None]
         before = [a for t, a in others if first is not None and t < first]
         after = [a for t, a in others if first is not None and t > first]
@@ -290,7 +290,7 @@ class Router:
             a = np.array([gate.along for gate in before])
             b = np.array([gate.along for gate in after])
             ahead = b[None] - a[:, None]
-            times = before[0].letter.first, after[0].letter.first
+            times = before[0].letter.rank, after[0].letter.rank
             if times[0] is not None and times[1] is not None:
                 ahead *= np.sign(times[1] - times[0])
             else:

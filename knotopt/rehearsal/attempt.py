@@ -12,11 +12,11 @@ from formulations.schedule import Schedule, greedy_schedule
 from knotopt.arrays import FloatArray
 from knotopt.errors import RequirementError
 from knotopt.flight.formation import NODES
-from knotopt.flight.plan import FlightPlan
+from knotopt.flight.layout import Word
+from knotopt.flight.plan import MotionPlan
 from knotopt.flight.planner import INTERVAL, FlightPlanner, kept, sample_times
 from knotopt.flight.route import HeightShape, SpanRoute, SpanShape
 from knotopt.flight.router import Router, RouteShape
-from knotopt.flight.word import Letter
 from knotopt.rehearsal.observer import Observer
 from knotopt.sim.simulation import Checkpoint
 from knotopt.sim.simulators import MUJOCO, Simulator
@@ -50,7 +50,7 @@ class _Leg:
     wrong: int
     near: int
     finished: bool
-    span: SpanRoute
+    planner: FlightPlanner
     timing: Schedule
     setpoints: FloatArray
     checkpoint: Checkpoint
@@ -67,12 +67,23 @@ class RehearsedFlight:
     Parameters
     ----------
     planner : FlightPlanner
-        With routes over all spans; those flown replace them.
+        With routes over all spans, none of them flown.
     spare : float array, shape (R - 1,)
         Cable of each span over what these routes need.
     shapes : tuple of SpanShape
         To be tried at every crossing, in order.
     simulator : Simulator
+
+    Attributes
+    ----------
+    planner : FlightPlanner
+        The routes flown so far, and those of `planner` after them.
+    lengths : float array, shape (R - 1,)
+        Of the cable between robots [m].
+    given_up : list of str
+        Crossings that no way tried made happen.
+    ways : int
+        Ways from crossing to crossing that were flown.
     """
 
     def __init__(
@@ -82,9 +93,8 @@ class RehearsedFlight:
         shapes: tuple[SpanShape, ...],
         simulator: Simulator = MUJOCO,
     ) -> None:
-        self.planner, self.shapes = planner, shapes
-        planner.frozen = planner.frozen[:0]
-        formation = planner.space_out()
+        self.planner, self.shapes = planner.spaced_out(), shapes
+        formation = self.planner.formation()
         self.lengths = planner.cable_lengths(formation) * spare
         self.along = formation.begin
         self.first = formation.positions(np.array([self.along]))[0]
@@ -94,15 +104,14 @@ class RehearsedFlight:
             step=planner.world.step,
             speed=planner.limits.speed,
         )
-        self.observer = Observer(planner, self.simulation)
         self.legs: list[_Leg] = []
         self.began: list[float] = []
-        self.failed: list[str] = []
+        self.given_up: list[str] = []
         self.ways = 0
         self.stuck = False
 
-    def rehearsed(self, name: str, chosen_by: str) -> FlightPlan:
-        """The plan as it was flown, timing included."""
+    def motion(self) -> MotionPlan:
+        """The motion as it was flown, timing included."""
         limits = self.planner.limits
         before, after = (
             int(np.ceil(time / INTERVAL)) for time in (limits.hover_before, limits.hover_after)
@@ -110,7 +119,7 @@ class RehearsedFlight:
         flown = np.concatenate((self.first[None], *(leg.setpoints for leg in self.legs)))
         hover = [np.repeat(flown[:1], before, axis=0), np.repeat(flown[-1:], after, axis=0)]
         positions = np.concatenate((hover[0], flown, hover[1]))
-        planned = self.planner.plan(name, chosen_by, self._timing(), self.lengths)
+        planned = self.planner.motion(self._timing(), self.lengths)
         times = sample_times(len(positions))
         return replace(planned, schedule="rehearsed", positions=positions, times=times)
 
@@ -145,21 +154,18 @@ class RehearsedFlight:
         """Fly the leader from its stop at robot `span`'s place to the next one."""
         word = self.planner.words[span - 1]
         self.began.append(self.simulation.clock)
+        if not word:
+            self._take(self._fly(span, self.planner.spans[span - 1], 0))
+            return
         for done in range(len(word) + 1):
-            if not word:
-                leg = self._fly(span, self.planner.spans[span - 1], 0)
-                self._take(leg)
-                return
             self._next_crossing(span, word, done)
 
-    def _next_crossing(self, span: int, word: tuple[Letter, ...], done: int) -> None:
+    def _next_crossing(self, span: int, word: Word, done: int) -> None:
         """Fly through gate `done` (from 0) of a span, or from the last one to the next robot."""
-        start, spans = self.simulation.checkpoint(), list(self.planner.spans)
-        along = self.along
+        start = self.simulation.checkpoint()
         best: _Leg | None = None
         for route in self._ways_on(span, word, done):
             self.simulation.restore(start)
-            self.planner.spans[:], self.along = spans, along
             trial = self._fly(span, route, done + 1)
             if best is None or trial.rank < best.rank:
                 best = trial
@@ -167,14 +173,12 @@ class RehearsedFlight:
                 break
         if best is None:  # no way on was found: what was planned before is flown
             self.simulation.restore(start)
-            self.planner.spans[:], self.along = spans, along
-            best = self._fly(span, spans[span - 1], done + 1)
+            best = self._fly(span, self.planner.spans[span - 1], done + 1)
         self.simulation.restore(best.checkpoint)
-        self.planner.spans[span - 1] = best.span
         self._take(best)
         name = f"span {span} {word[done]}" if done < len(word) else f"the end of span {span}"
         if best.wrong:
-            self.failed.append(name)
+            self.given_up.append(name)
         logger.info("%s: %s", name, "as planned" if not best.wrong else "not as planned")
 
     def _take(self, leg: _Leg) -> None:
@@ -182,19 +186,19 @@ class RehearsedFlight:
         self.legs.append(leg)
         self.stuck |= not leg.finished
         self.along = float(leg.timing.nodes[-1])
-        route = self.planner.formation().route
-        self.planner.frozen = route.points[route.along * self.planner.world.step <= self.along]
+        self.planner = leg.planner.with_flown(self.along)
 
-    def _ways_on(self, span: int, word: tuple[Letter, ...], done: int) -> Iterator[SpanRoute]:
+    def _ways_on(self, span: int, word: Word, done: int) -> Iterator[SpanRoute]:
         """Routes over a span that go on from here, past the cable as it lies."""
-        planner, observer = self.planner, self.observer
+        planner = self.planner
+        observer = Observer(planner, self.simulation)
         laid = observer.laid(span - 1)
         flown = _flown(planner.spans[span - 1], done) if done else None
         start = planner.places[span - 1] if flown is None else flown.points[-1]
         tether = observer.tether(span)
-        walls = [[planner.tail, tether]] if tether is not None else []
+        walls = [[planner.layout.tail, tether]] if tether is not None else []
         seen = set()
-        for barriers in (*walls, [planner.tail], []):
+        for barriers in (*walls, [planner.layout.tail], []):
             for shape in self.shapes:
                 router = Router(
                     laid.in_plan,
@@ -224,8 +228,7 @@ class RehearsedFlight:
 
     def _fly(self, span: int, route: SpanRoute, gates: int) -> _Leg:
         """Fly through that many gates of a route, or to its end."""
-        planner, simulation = self.planner, self.simulation
-        planner.spans[span - 1] = route
+        planner = self.planner.with_span(span, route)
         formation = planner.formation()
         before = sum(len(each.passages) for each in planner.spans[: span - 1])
         step = planner.world.step
@@ -237,13 +240,13 @@ class RehearsedFlight:
         timing = greedy_schedule(nodes, *formation.derivatives(nodes), *kept(planner.limits))
         count = int(np.ceil(timing.duration / INTERVAL)) + 1
         positions = formation.positions(timing.at(sample_times(count)))
-        finished = simulation.follow(positions, INTERVAL)
-        self.along = end
+        finished = self.simulation.follow(positions, INTERVAL)
         self.ways += 1
         wrong, near = self._judged(span, gates)
         wrong += 0 if finished else STUCK
         logger.debug("way %d: %d letters wrong, %d crossings near it", self.ways, wrong, near)
-        return _Leg(wrong, near, finished, route, timing, positions[1:], simulation.checkpoint())
+        checkpoint = self.simulation.checkpoint()
+        return _Leg(wrong, near, finished, planner, timing, positions[1:], checkpoint)
 
     def _judged(self, span: int, gates: int) -> tuple[int, int]:
         """Letters of a span's word so far that are wrong, and crossings that were near to it.

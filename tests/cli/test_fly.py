@@ -103,7 +103,7 @@ def test_an_interrupt_leaves_nothing(cli: Cli, tmp_path: Path, when: str) -> Non
         raise KeyboardInterrupt
 
     if when == "planning":
-        cli.monkeypatch.setattr(FlightPlanner, "plan", interrupted)
+        cli.monkeypatch.setattr(FlightPlanner, "motion", interrupted)
     else:
         cli.monkeypatch.setattr("os.fsync", interrupted)
     status, out, _ = cli("fly", "3", "--out", tmp_path / "new" / "flight")
