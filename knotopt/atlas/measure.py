@@ -54,7 +54,8 @@ _FLIGHT_PACKAGES = ("mujoco", "scipy", "shapely")
 class KnotResult:
     """What came of one knot: a row a cut, in the order of the outer cuts.
 
-    `requested` has the rows of the files that were asked for, by the file's name.
+    `requested` has the rows of the files that were asked for, by the file's name; `seconds` is what
+    all of it took [s].
     """
 
     number: int
@@ -62,6 +63,7 @@ class KnotResult:
     rows: tuple[AtlasRow, ...]
     times: tuple[TimesRow, ...]
     requested: dict[str, tuple[Any, ...]] = field(default_factory=dict)
+    seconds: float = 0.0
 
 
 def versions(settings: Settings) -> dict[str, str]:
@@ -128,6 +130,7 @@ def measure_knot(knot: KnotRow, settings: Settings) -> KnotResult:
     [('L+', 19, True, 5), ('L-', 7, False, 6)]
     """
     find_backend(SOLVER)  # its import is no knot's time
+    began = time.perf_counter()
     diagram, checked = knot.diagram, is_checked(knot, settings)
     rows, times = [], []
     requested: dict[str, tuple[Any, ...]] = dict.fromkeys(settings.requested, ())
@@ -137,7 +140,14 @@ def measure_knot(knot: KnotRow, settings: Settings) -> KnotResult:
         times.append(spent)
         for name, found in more.items():
             requested[name] += tuple(found)
-    return KnotResult(knot.number, versions(settings), tuple(rows), tuple(times), requested)
+    return KnotResult(
+        knot.number,
+        versions(settings),
+        tuple(rows),
+        tuple(times),
+        requested,
+        time.perf_counter() - began,
+    )
 
 
 def agrees_with_definition(cable: Cable, row: AtlasRow, settings: Settings) -> bool:

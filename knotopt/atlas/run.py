@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ from knotopt.atlas.measure import KnotResult, check_installed, measure_knot, ver
 from knotopt.atlas.schema import KnotRow, Manifest, Settings, list_hash
 from knotopt.atlas.store import opened
 
+logger = logging.getLogger(__name__)
 SHORTEST = 1.0  # between two parts [s]
 SHARE = 0.01  # of the time so far: at most so much is lost if the process is killed
 
@@ -75,6 +77,7 @@ def run_atlas(
             run.add(kept)
 
         began = written = time.monotonic()
+        logger.info("%d of %d knots are measured already", before, len(knots))
         if progress is not None:
             progress(state)
         try:
@@ -82,6 +85,13 @@ def run_atlas(
                 _check_versions(result, manifest)
                 fresh.append(result)
                 state = Progress(len(knots), before, state.measured + 1)
+                logger.info(
+                    "knot %s measured in %.2f s: %d of %d",
+                    result.rows[0].knot,
+                    result.seconds,
+                    before + state.measured,
+                    len(knots),
+                )
                 if progress is not None:
                     progress(state)
                 now = time.monotonic()
@@ -91,6 +101,7 @@ def run_atlas(
         finally:
             keep()
         run.finish()
+        logger.info("parts merged in %s", folder)
     return state
 
 

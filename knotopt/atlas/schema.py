@@ -17,10 +17,12 @@ import math
 from dataclasses import Field, asdict, dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import RequirementError
+
+if TYPE_CHECKING:  # options of the command line are read from `Settings`, at once
+    from knotopt.diagram.grid import GridDiagram
 
 FORMAT = "knotopt atlas 1"
 MANIFEST, KNOTS, ATLAS, TIMES, PATHS, PARTS = (
@@ -142,6 +144,8 @@ class KnotRow:
     @property
     def diagram(self) -> GridDiagram:
         """The grid diagram."""
+        from knotopt.diagram.grid import GridDiagram
+
         return GridDiagram(self.minus, self.plus)
 
 

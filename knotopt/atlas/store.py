@@ -35,14 +35,12 @@ from knotopt.atlas.schema import (
     meaning,
 )
 from knotopt.cable.cut import OUTER_CUTS
-from knotopt.errors import MissingExtraError, OutputError
+from knotopt.errors import OutputError, require_extra
 from knotopt.files import write_atomically, write_folder
 
-try:
-    import pyarrow as pa
-    import pyarrow.parquet as pq
-except ImportError as error:
-    raise MissingExtraError("pyarrow", "atlas", "an atlas") from error
+require_extra("pyarrow", "atlas", "an atlas")
+import pyarrow as pa  # noqa: E402
+import pyarrow.parquet as pq  # noqa: E402
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance

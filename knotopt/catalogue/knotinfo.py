@@ -17,7 +17,7 @@ import platformdirs
 
 from knotopt.catalogue.knots import PrimeKnot
 from knotopt.diagram.grid import Mark
-from knotopt.errors import MissingExtraError, OutputError
+from knotopt.errors import OutputError, require_extra
 from knotopt.files import write_atomically
 
 _PACKAGE = "database_knotinfo"
@@ -40,8 +40,7 @@ def knotinfo_knots() -> dict[str, PrimeKnot]:
     MissingExtraError
         The `knotinfo` extra is not installed.
     """
-    if not is_installed():
-        raise MissingExtraError(_PACKAGE, "knotinfo", "the table of knots above 10 crossings")
+    require_extra(_PACKAGE, "knotinfo", "the table of knots above 10 crossings")
     version = importlib.metadata.version(_PACKAGE)
     path = platformdirs.user_cache_path("knotopt") / f"knotinfo-{version}-{_CACHE_FORMAT}.json"
     try:

@@ -13,7 +13,7 @@ from knotopt.catalogue.table1_grids import table1_grids
 from knotopt.diagram.families import torus_knot
 from knotopt.diagram.grid import GridDiagram
 from knotopt.diagram.reading import read_grid
-from knotopt.errors import MissingExtraError, UnknownKnotError
+from knotopt.errors import UnknownKnotError, require_extra
 
 
 @dataclass(frozen=True)
@@ -89,8 +89,8 @@ def _by_name(text: str) -> NamedDiagram:
         knots = knotinfo_knots()
     if name in knots:
         return NamedDiagram(name, knots[name].diagram, "KnotInfo", knots[name])
-    if crossings and SHIPPED_CROSSINGS < int(crossings[1]) <= 13 and not is_installed():
-        raise MissingExtraError("database_knotinfo", "knotinfo", f"knot {name!r}")
+    if crossings and SHIPPED_CROSSINGS < int(crossings[1]) <= 13:
+        require_extra("database_knotinfo", "knotinfo", f"knot {name!r}")
     rows = dict.fromkeys(grid.row for grid in table1_grids())
     near = [row for row in rows if text and row.lower().startswith(text)]
     near += difflib.get_close_matches(name, [*knots, *rows], n=3, cutoff=0.3)

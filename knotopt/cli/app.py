@@ -1,48 +1,80 @@
-"""The command `knotopt`. Commands import what they compute with when they run, not before."""
+"""The command `knotopt`. Commands are imported when they are asked for, not before."""
 
 from __future__ import annotations
 
+import importlib
 import io
 import sys
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
 from knotopt import __version__
-from knotopt.cli import (
-    atlas,
-    compare,
-    doctor,
-    fly,
-    knots,
-    lcf,
-    logs,
-    path,
-    prove,
-    report,
-    show,
-    solve,
-    table1,
-    topology,
-)
+from knotopt.cli import logs
 from knotopt.errors import KnotoptError
+
+COMMANDS = {
+    "knots": ("knots", "List the prime knots in the catalogue."),
+    "show": ("show", "Show a knot: cable, crossings, codes and invariants."),
+    "lcf": ("lcf", "Select supports by the Loop Consistency Filter."),
+    "solve": ("solve", "Find the provably smallest set of supports."),
+    "path": ("path", "Find the path of the cable, and check it."),
+    "fly": ("fly", "Plan a flight that ties a knot, check and simulate it."),
+    "topology": ("topology", "List the ways in which one arm ties a rope."),
+    "compare": ("compare", "Compare every method on the same knots."),
+    "atlas": ("atlas", "Measure every method on every outer cut of many knots."),
+    "report": ("report", "Report what an atlas says."),
+    "prove": ("prove", "Write certificates of smallest sets."),
+    "check": ("prove", "Check certificates, without any solver."),
+    "table1": ("table1", "Recompute the paper's Table I."),
+    "doctor": ("doctor", "Check versions, solvers and extras."),
+}
+"""Name of a command to the module of `knotopt.cli` that has it, and what it does in one line."""
+
+HELP = (
+    "Smallest robot teams that tie a knot in a cable in midair. "
+    "KNOT is a name (8_19), a row of Table I (3, '7 Var1'), a torus knot 'T(2,7)', "
+    "or a .json or .csv file with a grid diagram."
+)
+
+
+class Commands(TyperGroup):
+    """The commands, each built when it is asked for: the list of them needs none."""
+
+    def __init__(self, **attributes: Any) -> None:
+        super().__init__(**attributes)
+        self.commands = dict.fromkeys(COMMANDS)  # type: ignore[assignment]
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:  # noqa: ARG002
+        """The command of that name; None if there is none."""
+        if cmd_name not in COMMANDS:
+            return None
+        module = importlib.import_module(f"knotopt.cli.{COMMANDS[cmd_name][0]}")
+        alone = typer.Typer(add_completion=False, rich_markup_mode=None)
+        alone.command(cmd_name)(logs.logged(getattr(module, cmd_name)))
+        return typer.main.get_command(alone)
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:  # noqa: ARG002
+        """Write the list of commands into the help."""
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, words) for name, (_, words) in COMMANDS.items()])
+
+
+app = typer.Typer(
+    name="knotopt",
+    cls=Commands,
+    help=HELP,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,  # help without importing rich answers in half the time
+)
 
 
 def _print_version(wanted: bool) -> None:
     if wanted:
         print(__version__)
         raise typer.Exit
-
-
-app = typer.Typer(
-    name="knotopt",
-    help="Smallest robot teams that tie a knot in a cable in midair. "
-    "KNOT is a name (8_19), a row of Table I (3, '7 Var1'), a torus knot 'T(2,7)', "
-    "or a .json or .csv file with a grid diagram.",
-    no_args_is_help=True,
-    pretty_exceptions_enable=False,
-    rich_markup_mode=None,  # help without importing rich answers in half the time
-)
 
 
 @app.callback()
@@ -59,25 +91,6 @@ def options(
 ) -> None:
     """Options before the command, where --verbose and --log may stand as well as after it."""
     context.with_resource(logs.logging_to(verbose, log))
-
-
-for command in (
-    knots.knots,
-    show.show,
-    lcf.lcf,
-    solve.solve,
-    path.path,
-    fly.fly,
-    topology.topology,
-    compare.compare,
-    atlas.atlas,
-    report.report,
-    prove.prove,
-    prove.check,
-    table1.table1,
-    doctor.doctor,
-):
-    app.command()(logs.logged(command))
 
 
 def main() -> None:

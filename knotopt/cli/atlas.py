@@ -9,8 +9,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from knotopt.cli.options import OpennessOption
+from formulations.backends import BACKENDS
+from knotopt.atlas.schema import Settings
+from knotopt.cli.options import CatalogueOption, OpennessOption, unless_given
 from knotopt.cli.printing import print_facts, print_written
+from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
     from rich.progress import Task
@@ -28,13 +31,10 @@ def atlas(
     knots: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="KNOT...", show_default=False, help="Knots; by default those of --catalogue."
+            metavar="KNOT", show_default=False, help="Knots; by default those of --catalogue."
         ),
     ] = None,
-    catalogue: Annotated[
-        bool,
-        typer.Option("--catalogue", help="All 249 prime knots up to 10 crossings."),
-    ] = False,
+    catalogue: CatalogueOption = False,
     knotinfo: Annotated[
         bool,
         typer.Option("--knotinfo", help="All 12,965 up to 13 crossings (the knotinfo extra)."),
@@ -55,16 +55,13 @@ def atlas(
         typer.Option(
             metavar="NAME,NAME...",
             show_default=False,
-            help="Solve the programs by each of these as well: cp-sat, highs, scip, maxsat (RC2), "
-            "exhaustive.",
+            help=f"Solve the programs by each of these as well: {', '.join(BACKENDS)}.",
         ),
     ] = None,
     solver_limit: Annotated[
         float | None,
-        typer.Option(
-            metavar="SECONDS",
-            show_default=False,
-            help="With --solvers: of each solve; 60.",
+        unless_given(
+            Settings.solver_limit, "With --solvers: time limit of each solve.", metavar="S"
         ),
     ] = None,
     physics: Annotated[
@@ -76,7 +73,9 @@ def atlas(
         ),
     ] = False,
     r: OpennessOption = None,
-    seed: Annotated[int, typer.Option(min=0, max=2**31 - 1, help="Of the solver.")] = 0,
+    seed: Annotated[
+        int, typer.Option(min=0, max=2**31 - 1, metavar="N", help="Of the solver.")
+    ] = Settings.seed,
     check: Annotated[
         int,
         typer.Option(
@@ -84,14 +83,18 @@ def atlas(
             metavar="N",
             help="Examine the sets of one knot in N by the definitions; 1: of all, 0: of none.",
         ),
-    ] = 16,
+    ] = Settings.check,
     jobs: Annotated[
         int | None,
-        typer.Option(min=1, help="Processes; by default one a core.", show_default=False),
+        typer.Option(
+            min=1, metavar="N", help="Processes; by default one a core.", show_default=False
+        ),
     ] = None,
     scheduler: Annotated[
         str | None,
-        typer.Option(metavar="ADDRESS", help="Of a Dask cluster, whose workers then do the work."),
+        typer.Option(
+            metavar="ADDRESS", help="Of a Dask scheduler, whose workers then do the work."
+        ),
     ] = None,
 ) -> None:
     """Measure baseline, LCF, LCF layered and the smallest open sets on every outer cut.
@@ -100,11 +103,8 @@ def atlas(
     Example: knotopt atlas atlas249 --span
     """
     from knotopt.atlas.run import run_atlas
-    from knotopt.atlas.schema import Settings
-    from knotopt.supports.requirements import Requirements
 
     listed = _list(knots, grids, catalogue=catalogue, knotinfo=knotinfo)
-    usual = Settings()
     if solver_limit is not None and solvers is None:
         raise typer.BadParameter("goes with --solvers", param_hint="--solver-limit")
     settings = Settings(
@@ -113,8 +113,8 @@ def atlas(
         span,
         paths,
         check,
-        usual.solvers if solvers is None else _solvers(solvers),
-        usual.solver_limit if solver_limit is None else solver_limit,
+        () if solvers is None else _solvers(solvers),
+        Settings.solver_limit if solver_limit is None else solver_limit,
         physics,
     )
     engine = _engine(jobs, scheduler)
@@ -156,7 +156,6 @@ def _list(
 
 def _solvers(text: str) -> tuple[str, ...]:
     """The solvers named, in one order whatever order they are named in."""
-    from formulations.backends import BACKENDS
     from knotopt.supports.minimal import find_backend
 
     names = {name.strip() for name in text.split(",")}

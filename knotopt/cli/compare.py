@@ -32,7 +32,12 @@ def compare(
     knots: KnotsArgument = None,
     catalogue: CatalogueOption = False,
     cut: Annotated[
-        str, typer.Option(help="best (each method's own of the crossing-free cuts), or one: L+ ...")
+        str,
+        typer.Option(
+            metavar="CUT",
+            help="best (each method's own of the crossing-free cuts), or one: L+ L- R+ R- B+ B- T+ "
+            "T-, col3+, row5-.",
+        ),
     ] = "best",
     r: OpennessOption = None,
     solver: SolverOption = "cp-sat",

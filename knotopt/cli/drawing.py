@@ -5,10 +5,25 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from knotopt.cable.cable import Cable
+from knotopt.supports.support_set import SupportSet, format_supports
 
 # A corner by where its two strands go: (east rather than west, north rather than south).
 _CORNERS = {(True, True): "└", (True, False): "┌", (False, True): "┘", (False, False): "┐"}
 SUPPORT, TAIL, LEADER = "●", "◇", "◆"
+LEGEND = f"{SUPPORT} support robot  {TAIL} lifting robot p1  {LEADER} lifting robot pn, the leader"
+
+
+def print_supports(title: str, chosen: SupportSet) -> None:
+    """Print a cable with its robots, what they are, and how many."""
+    print(draw_text(chosen.cable, chosen.supports))
+    print(
+        f"\n{SUPPORT} support robot  {TAIL} lifting robot p1  {LEADER} lifting robot pn, the leader"
+    )
+    print(
+        f"\n{title}, cut {chosen.cable.cut}: {chosen.robots} robots instead of {chosen.baseline} "
+        f"({chosen.reduction_percent} % fewer)"
+    )
+    print(f"supports: {format_supports(chosen.placed_supports) or 'none'}")
 
 
 def draw_text(cable: Cable, supports: Collection[int] = ()) -> str:

@@ -12,17 +12,23 @@ from knotopt.cli.printing import print_json, print_table
 
 
 def knots(
-    pattern: Annotated[str, typer.Argument(help="Names to list, such as '9_*'.")] = "*",
+    pattern: Annotated[
+        str, typer.Argument(metavar="PATTERN", help="Names to list, such as '9_*'.")
+    ] = "*",
     crossings: Annotated[
-        int | None, typer.Option(help="Only knots of this crossing number.", min=0)
+        int | None, typer.Option(metavar="N", help="Only knots of this crossing number.", min=0)
     ] = None,
-    arc_index: Annotated[int | None, typer.Option(help="Only knots of this arc index.")] = None,
-    determinant: Annotated[int | None, typer.Option(help="Only knots of this determinant.")] = None,
+    arc_index: Annotated[
+        int | None, typer.Option(metavar="N", help="Only knots of this arc index.")
+    ] = None,
+    determinant: Annotated[
+        int | None, typer.Option(metavar="N", help="Only knots of this determinant.")
+    ] = None,
     alternating: Annotated[
         bool | None,
         typer.Option("--alternating/--non-alternating", help="Only alternating knots, or none."),
     ] = None,
-    every: Annotated[
+    all_of_knotinfo: Annotated[
         bool, typer.Option("--all", help="All 12,965 of KnotInfo (the knotinfo extra).")
     ] = False,
     as_json: JsonOption = False,
@@ -37,7 +43,7 @@ def knots(
 
     chosen = [
         knot
-        for knot in (knotinfo_knots() if every else shipped_knots()).values()
+        for knot in (knotinfo_knots() if all_of_knotinfo else shipped_knots()).values()
         if fnmatch.fnmatchcase(knot.name, pattern)
         and crossings in (None, knot.crossing_number)
         and arc_index in (None, knot.arc_index)
@@ -64,5 +70,5 @@ def knots(
         ),
     )
     print(f"{len(chosen)} knot" + ("" if len(chosen) == 1 else "s"))
-    if not chosen and not every:
+    if not chosen and not all_of_knotinfo:
         print("The catalogue ends at 10 crossings; --all looks among KnotInfo's 12,965 knots.")

@@ -18,8 +18,9 @@ def lcf(
     cut: Annotated[
         str,
         typer.Option(
+            metavar="CUT",
             help="best (of the outer cuts), all (that are crossing-free), "
-            "or one: L+ L- R+ R- B+ B- T+ T-, col3+, row5-."
+            "or one: L+ L- R+ R- B+ B- T+ T-, col3+, row5-.",
         ),
     ] = "best",
     layered: LayeredOption = False,
@@ -32,8 +33,8 @@ def lcf(
     """
     from knotopt.cable.cut import Cut, crossing_free_cuts
     from knotopt.catalogue.lookup import find_knot
+    from knotopt.cli.drawing import print_supports
     from knotopt.supports.lcf import best_cut, lcf_by_cut
-    from knotopt.supports.support_set import format_supports
 
     named = find_knot(knot)
     if cut == "all":
@@ -42,23 +43,8 @@ def lcf(
                 "draws one cut: give --cut best or a cut's name", param_hint="--plot"
             )
         cuts = crossing_free_cuts(named.diagram)
-        results = lcf_by_cut(named.diagram, layered=layered, cuts=cuts).values()
-        rows = [_row(named.name, result) for result in results]
-        if as_json:
-            print_json(rows)
-            return
-        print_table(
-            ("cut", "robots", "reduction", "supports"),
-            (
-                (
-                    row["cut"],
-                    row["robots_after"],
-                    f"{row['reduction_percent']} %",
-                    format_supports(result.placed_supports),
-                )
-                for row, result in zip(rows, results, strict=True)
-            ),
-        )
+        by_cut = lcf_by_cut(named.diagram, layered=layered, cuts=cuts)
+        _print_cuts(named.name, list(by_cut.values()), as_json=as_json)
         return
     if cut == "best":
         result = best_cut(named.diagram, layered=layered)
@@ -73,17 +59,7 @@ def lcf(
     if as_json:
         print_json({**_row(named.name, result), **_details(result)})
         return
-    from knotopt.cli.drawing import LEADER, SUPPORT, TAIL, draw_text
-
-    print(draw_text(result.cable, result.supports))
-    print(
-        f"\n{SUPPORT} support robot  {TAIL} lifting robot p1  {LEADER} lifting robot pn, the leader"
-    )
-    print(
-        f"\n{named.name} ({named.source}), cut {result.cable.cut}: {result.robots} robots instead "
-        f"of {result.baseline} ({result.reduction_percent} % fewer)"
-    )
-    print(f"supports: {format_supports(result.placed_supports)}")
+    print_supports(f"{named.name} ({named.source})", result)
     print_table(
         ("region", "crossings", "boundary", "selects", "state"),
         (
@@ -91,14 +67,35 @@ def lcf(
                 region.kind,
                 " ".join(f"c{index + 1}" for index in region.apexes),
                 " ".join(f"p{index}" for index in region.boundary),
-                " ".join(f"p{index}" for index in result.selected[number]),
+                " ".join(f"p{index}" for index in selected),
                 region.why,
             )
-            for number, region in enumerate(result.regions)
+            for region, selected in zip(result.regions, result.selected, strict=True)
         ),
     )
     if plot is not None:
         print_written(plot)
+
+
+def _print_cuts(name: str, results: list[LcfResult], *, as_json: bool) -> None:
+    """Print a line for each cut."""
+    from knotopt.supports.support_set import format_supports
+
+    if as_json:
+        print_json([_row(name, result) for result in results])
+        return
+    print_table(
+        ("cut", "robots", "reduction", "supports"),
+        (
+            (
+                result.cable.cut,
+                result.robots,
+                f"{result.reduction_percent} %",
+                format_supports(result.placed_supports),
+            )
+            for result in results
+        ),
+    )
 
 
 def _row(name: str, result: LcfResult) -> dict[str, Any]:
@@ -126,9 +123,9 @@ def _details(result: LcfResult) -> dict[str, Any]:
                 "boundary": list(region.boundary),
                 "active": region.is_active,
                 "why": region.why,
-                "selects": list(result.selected[number]),
+                "selects": list(selected),
             }
-            for number, region in enumerate(result.regions)
+            for region, selected in zip(result.regions, result.selected, strict=True)
         ],
         "layers": result.regions.layers().T[::-1].tolist(),  # as printed: row N first
     }

@@ -55,7 +55,7 @@ KnotArgument = Annotated[
 KnotsArgument = Annotated[
     list[str] | None,
     typer.Argument(
-        metavar="KNOT...",
+        metavar="KNOT",
         show_default=False,
         help="Names (8_19), rows of Table I (3, '7 Var1'), 'T(2,7)', or .json or .csv files.",
     ),
@@ -112,7 +112,7 @@ SolverOption = Annotated[
 ]
 TimeLimitOption = Annotated[
     float | None,
-    typer.Option(help="Stop after so many seconds [s].", metavar="S", show_default=False),
+    typer.Option(help="Stop after so many seconds.", metavar="S", show_default=False),
 ]
 
 

@@ -17,12 +17,15 @@ from knotopt.cli.options import (
     SupportsCutOption,
     SupportsOption,
     TimeLimitOption,
+    unless_given,
 )
 from knotopt.cli.printing import print_facts, print_json, print_note, print_table, print_written
+from knotopt.path.requirements import PathRequirements
+from knotopt.path.world import World
+from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
     from knotopt.path.result import PathResult
-    from knotopt.path.world import World
 
 METHODS = ("nlp", "relaxation", "both")
 SAMPLES = 0.05  # between the rows of a curve's file [grid steps]
@@ -32,53 +35,53 @@ def path(
     knot: KnotArgument,
     supports: SupportsOption = "milp",
     method: Annotated[
-        str, typer.Option(help="nlp (the program), relaxation (the paper's springs), or both.")
+        str,
+        typer.Option(
+            metavar="NAME", help="nlp (the program), relaxation (the paper's springs), or both."
+        ),
     ] = "nlp",
     cut: SupportsCutOption = "best",
-    formulation: FormulationOption = "opening",
+    formulation: FormulationOption = Requirements.formulation,
     r: OpennessOption = None,
     clearance: Annotated[
         float, typer.Option(help="Smallest distance of strands in plan [grid steps].")
-    ] = 0.15,
+    ] = PathRequirements.clearance,
     opening: Annotated[
         float, typer.Option(help="Room where a strand threads an active region [grid steps].")
-    ] = 0.25,
+    ] = PathRequirements.opening,
     gap: Annotated[
         float | None,
-        typer.Option(
-            help="Vertical distance at crossings [grid steps]; 0.3. With --step it is what a drone "
-            "and its downwash need.",
-            show_default=False,
+        unless_given(
+            PathRequirements.gap,
+            "Vertical distance at crossings [grid steps]. With --step it is what a drone and its "
+            "downwash need.",
         ),
     ] = None,
-    slope: Annotated[float, typer.Option(help="Steepest rise, height over length in plan.")] = 1.0,
+    slope: Annotated[
+        float, typer.Option(help="Steepest rise, height over length in plan.")
+    ] = PathRequirements.slope,
     bending: Annotated[
         float, typer.Option(help="Weight of bending against length [grid steps].")
-    ] = 0.04,
+    ] = PathRequirements.bending,
     step: Annotated[
         float | None,
         typer.Option(help="Metres per grid step: adds lengths in metres.", show_default=False),
     ] = None,
     altitude: Annotated[
-        float | None,
-        typer.Option(help="With --step: of hovering robots [m]; 1.5.", show_default=False),
+        float | None, unless_given(World.altitude, "With --step: of hovering robots [m].")
     ] = None,
     floor: Annotated[
-        float | None,
-        typer.Option(help="With --step: the cable's lowest [m]; 0.5.", show_default=False),
+        float | None, unless_given(World.floor, "With --step: the cable's lowest [m].")
     ] = None,
     ceiling: Annotated[
-        float | None,
-        typer.Option(help="With --step: the cable's highest [m]; 2.5.", show_default=False),
+        float | None, unless_given(World.ceiling, "With --step: the cable's highest [m].")
     ] = None,
     drone_height: Annotated[
-        float | None, typer.Option(help="With --step [m]; 0.03.", show_default=False)
+        float | None, unless_given(World.drone_height, "With --step: height of a drone [m].")
     ] = None,
     downwash: Annotated[
         float | None,
-        typer.Option(
-            help="With --step: how far below a drone it reaches [m]; 0.3.", show_default=False
-        ),
+        unless_given(World.downwash, "With --step: how far below a drone it reaches [m]."),
     ] = None,
     time_limit: TimeLimitOption = None,
     plot: PlotOption = None,
@@ -99,32 +102,28 @@ def path(
     from knotopt.catalogue.lookup import find_knot
     from knotopt.path.optimise import optimise_path
     from knotopt.path.relaxation import relaxed_path
-    from knotopt.path.requirements import PathRequirements
-    from knotopt.supports.requirements import Requirements
     from knotopt.supports.selection import choose_supports
 
     if method not in METHODS:
         raise typer.BadParameter(f"is one of {', '.join(METHODS)}", param_hint="--method")
     _check_outputs(plot, out, method)
-    if supports != "milp" and (r is not None or formulation != "opening"):
+    if supports != "milp" and (r is not None or formulation != Requirements.formulation):
         raise typer.BadParameter(
             "goes with --supports milp", param_hint="--formulation" if r is None else "--r"
         )
     asked = PathRequirements(clearance, opening, slope=slope, bending=bending)
-    every = {
+    room = {
         "altitude": altitude,
         "floor": floor,
         "ceiling": ceiling,
         "drone_height": drone_height,
         "downwash": downwash,
     }
-    room = {name: value for name, value in every.items() if value is not None}
-    world = _world(step, room, gap)
+    world = _world(step, {name: value for name, value in room.items() if value is not None}, gap)
     if world is not None:
         asked = world.requirements(asked)
     if gap is not None:
         asked = replace(asked, gap=gap)
-
     named = find_knot(knot)
     chosen = choose_supports(named.diagram, supports, cut, Requirements(formulation, r))
     results: list[PathResult] = []
@@ -147,8 +146,6 @@ def path(
 
 def _world(step: float | None, room: dict[str, float], gap: float | None) -> World | None:
     """The world that the options describe, if any."""
-    from knotopt.path.world import World
-
     if step is not None and gap is not None:
         raise typer.BadParameter(
             "is in grid steps; with --step it follows from --drone-height and --downwash",

@@ -9,15 +9,20 @@ from contextlib import contextmanager
 from typing import TypeVar
 
 Item = TypeVar("Item")
-_logger = logging.getLogger(__name__)
+logger = logging.getLogger(__name__)
 
 
-def track(items: Iterable[Item], what: str, total: int) -> Iterator[Item]:
+def track(
+    items: Iterable[Item],
+    what: str,
+    total: int,
+    name: Callable[[Item], object] = lambda item: getattr(item, "name", ""),
+) -> Iterator[Item]:
     """The items, with a bar while they are gone through, and a line in the log after each."""
     with progress_bar(what, total) as show:
         for done, item in enumerate(items, 1):
             yield item
-            show(done, getattr(item, "name", ""))
+            show(done, name(item))
 
 
 @contextmanager
@@ -31,11 +36,11 @@ def progress_bar(what: str, total: int) -> Iterator[Callable[..., None]]:
         task = bar.add_task(what, total=total)
         before = time.monotonic()
 
-        def show(done: int, name: str = "") -> None:
+        def show(done: int, name: object = "") -> None:
             nonlocal before
             now = time.monotonic()
             words = f" ({name})" if name else ""
-            _logger.info("%s: %d of %d%s in %.2f s", what, done, total, words, now - before)
+            logger.info("%s: %d of %d%s in %.2f s", what, done, total, words, now - before)
             before = now
             bar.update(task, completed=done)
 

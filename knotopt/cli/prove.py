@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, cast, get_args
+from typing import TYPE_CHECKING, Annotated, Any, cast, get_args
 
 import typer
 
@@ -23,6 +23,7 @@ from knotopt.cli.options import (
 )
 from knotopt.cli.printing import print_json, print_note, print_table, print_written
 from knotopt.cli.progress import track
+from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
     from knotopt.verify.certificate import CheckedCertificate
@@ -31,15 +32,21 @@ if TYPE_CHECKING:
 def prove(
     knots: KnotsArgument = None,
     catalogue: CatalogueOption = False,
-    formulation: FormulationOption = "opening",
+    formulation: FormulationOption = Requirements.formulation,
     threading: ThreadingOption = None,
     r: OpennessOption = None,
     cut: Annotated[
-        str, typer.Option(help="best: the bound holds for every crossing-free cut; or one: L+ ...")
+        str,
+        typer.Option(
+            metavar="CUT",
+            help="best: the bound holds for every crossing-free cut; or one: L+ L- R+ R- B+ B- T+ "
+            "T-, col3+, row5-.",
+        ),
     ] = "best",
     method: Annotated[
         str | None,
         typer.Option(
+            metavar="NAME",
             help="refutation (by CaDiCaL; the default) or count (the checker examines every "
             "smaller set).",
             show_default=False,
@@ -59,7 +66,6 @@ def prove(
     from knotopt.files import resumable_lines
     from knotopt.supports.certificate import Method
     from knotopt.supports.certificate import prove as prove_knot
-    from knotopt.supports.requirements import Requirements
 
     found = find_knots(knots, catalogue=catalogue)
     if method not in (None, *get_args(Method)):
@@ -95,7 +101,12 @@ def prove(
                 file=sys.stderr,
             )
         raise
-    claims = [json.loads(line) for line in proven]
+    _print_claims([json.loads(line) for line in proven])
+    print_written(out)
+
+
+def _print_claims(claims: list[dict[str, Any]]) -> None:
+    """Print what certificates say."""
     print_table(
         ("knot", "formulation", "r", "robots", "cut", "smallest over"),
         (
@@ -110,11 +121,15 @@ def prove(
             for claim in claims
         ),
     )
-    print_written(out)
 
 
 def check(
-    files: Annotated[list[Path], typer.Argument(metavar="FILE...", show_default=False)],
+    files: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="FILE", show_default=False, help="As prove writes them, one a line."
+        ),
+    ],
     as_json: JsonOption = False,
 ) -> None:
     """Check certificates from the definitions alone, without any solver.
@@ -126,63 +141,79 @@ def check(
     from knotopt.errors import CertificateError
     from knotopt.verify.certificate import check_certificate
 
-    certificates = []
-    for file in files:
-        try:
-            lines = file.read_text(encoding="utf-8").splitlines()
-        except OSError as error:
-            raise CertificateError(f"cannot read {file}: {error.strerror}") from error
-        except UnicodeDecodeError as error:
-            raise CertificateError(f"cannot read {file}: it is no text in UTF-8") from error
-        if not lines:
-            raise CertificateError(f"{file} is empty")
-        certificates += [(file, number, line) for number, line in enumerate(lines, 1)]
-    accepted, rejected = [], []
-    for file, number, line in track(certificates, "certificates", len(certificates)):
+    certificates = [(file, *line) for file in files for line in enumerate(_lines(file), 1)]
+    accepted: list[dict[str, Any]] = []
+    rejected: list[dict[str, Any]] = []
+    names = track(
+        certificates, "certificates", len(certificates), lambda each: f"{each[0]}, line {each[1]}"
+    )
+    for file, number, line in names:
+        place = {"file": str(file), "line": number}
         try:
             verdict = check_certificate(line)
         except CertificateError as error:
-            rejected.append({"file": str(file), "line": number, "reason": str(error)})
-            continue
-        accepted.append(
-            {
-                "file": str(file),
-                "line": number,
-                "knot": verdict.knot,
-                "grid": "catalogue" if _is_shipped(verdict) else "other",
-                "formulation": verdict.formulation,
-                "threading": verdict.threading,
-                "openness": float(verdict.openness),
-                "robots_after": verdict.robots,
-                "cut": verdict.cut,
-                "cuts": verdict.cuts,
-                "every_cut": verdict.every_cut,
-            }
-        )
+            rejected.append(place | {"reason": str(error)})
+        else:
+            accepted.append(place | _verdict_json(verdict))
     if as_json:
         print_json({"accepted": accepted, "rejected": rejected})
     else:
-        if accepted:
-            print_table(
-                ("named", "grid", "formulation", "r", "robots", "cut", "smallest over"),
-                (
-                    (
-                        verdict["knot"],
-                        verdict["grid"],
-                        verdict["formulation"],
-                        f"{verdict['openness']:g}",
-                        verdict["robots_after"],
-                        verdict["cut"],
-                        ("all " if verdict["every_cut"] else "") + f"{verdict['cuts']} cuts",
-                    )
-                    for verdict in accepted
-                ),
-            )
-        for each in rejected:
-            print(f"rejected: {each['file']}, line {each['line']}: {each['reason']}")
-        print(f"{len(accepted)} accepted, {len(rejected)} rejected")
+        _print_verdicts(accepted, rejected)
     if rejected:
         raise typer.Exit(1)
+
+
+def _lines(file: Path) -> list[str]:
+    """The certificates of a file."""
+    from knotopt.errors import CertificateError
+
+    try:
+        lines = file.read_text(encoding="utf-8").splitlines()
+    except OSError as error:
+        raise CertificateError(f"cannot read {file}: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise CertificateError(f"cannot read {file}: it is no text in UTF-8") from error
+    if not lines:
+        raise CertificateError(f"{file} is empty")
+    return lines
+
+
+def _verdict_json(verdict: CheckedCertificate) -> dict[str, Any]:
+    """What `--json` says of a certificate that was accepted."""
+    return {
+        "knot": verdict.knot,
+        "grid": "catalogue" if _is_shipped(verdict) else "other",
+        "formulation": verdict.formulation,
+        "threading": verdict.threading,
+        "openness": float(verdict.openness),
+        "robots_after": verdict.robots,
+        "cut": verdict.cut,
+        "cuts": verdict.cuts,
+        "every_cut": verdict.every_cut,
+    }
+
+
+def _print_verdicts(accepted: list[dict[str, Any]], rejected: list[dict[str, Any]]) -> None:
+    """Print what was accepted as a table, and why others were rejected."""
+    if accepted:
+        print_table(
+            ("named", "grid", "formulation", "r", "robots", "cut", "smallest over"),
+            (
+                (
+                    verdict["knot"],
+                    verdict["grid"],
+                    verdict["formulation"],
+                    f"{verdict['openness']:g}",
+                    verdict["robots_after"],
+                    verdict["cut"],
+                    ("all " if verdict["every_cut"] else "") + f"{verdict['cuts']} cuts",
+                )
+                for verdict in accepted
+            ),
+        )
+    for each in rejected:
+        print(f"rejected: {each['file']}, line {each['line']}: {each['reason']}")
+    print(f"{len(accepted)} accepted, {len(rejected)} rejected")
 
 
 def _is_shipped(verdict: CheckedCertificate) -> bool:

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from formulations.backends import DEFAULT
+from formulations.solution import Limits
 from knotopt.cli.options import (
     FormulationOption,
     JsonOption,
@@ -17,9 +19,10 @@ from knotopt.cli.options import (
     ThreadingOption,
     TimeLimitOption,
     solver_limits,
+    unless_given,
 )
 from knotopt.cli.printing import print_json, print_written
-from knotopt.cli.progress import track
+from knotopt.cli.progress import progress_bar, track
 from knotopt.cli.solve_flown import (
     FlightOptions,
     MaxCutOption,
@@ -36,34 +39,36 @@ from knotopt.cli.solve_printing import (
     show_search,
     show_sets,
 )
+from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
-    from formulations.solution import Limits
     from knotopt.diagram.grid import GridDiagram
     from knotopt.supports.minimal import MinimalSupports
-    from knotopt.supports.requirements import Requirements
     from knotopt.supports.search import CutSearch, DiagramSearch
+
+MOST_SETS = 1000  # that --all lists, unless another number is given
 
 
 def solve(
     knot: KnotArgument,
-    formulation: FormulationOption = "opening",
+    formulation: FormulationOption = Requirements.formulation,
     threading: ThreadingOption = None,
     r: OpennessOption = None,
     cut: Annotated[
         str,
         typer.Option(
+            metavar="CUT",
             help="best (of the crossing-free cuts), all (each by itself), "
-            "or one: L+ L- R+ R- B+ B- T+ T-, col3+, row5-."
+            "or one: L+ L- R+ R- B+ B- T+ T-, col3+, row5-.",
         ),
     ] = "best",
-    solver: SolverOption = "cp-sat",
+    solver: SolverOption = DEFAULT,
     every: Annotated[
         bool, typer.Option("--all", help="List all smallest sets, not one of them.")
     ] = False,
     count: Annotated[
         int | None,
-        typer.Option(help="With --all: how many at most; 1000 by default.", min=1),
+        unless_given(MOST_SETS, "With --all: how many at most.", min=1),
     ] = None,
     diagrams: Annotated[
         int,
@@ -125,9 +130,9 @@ def solve(
         ),
     ] = None,
     time_limit: TimeLimitOption = None,
-    gap: Annotated[float, typer.Option(help="Relative gap that is good enough.")] = 0.0,
-    threads: Annotated[int, typer.Option(help="Threads of the solver.")] = 1,
-    seed: Annotated[int, typer.Option(help="Seed of solver and diagram search.")] = 0,
+    gap: Annotated[float, typer.Option(help="Relative gap that is good enough.")] = Limits.gap,
+    threads: Annotated[int, typer.Option(help="Threads of the solver.")] = Limits.threads,
+    seed: Annotated[int, typer.Option(help="Seed of solver and diagram search.")] = Limits.seed,
     export: Annotated[
         Path | None,
         typer.Option(
@@ -144,7 +149,6 @@ def solve(
     from knotopt.cable.cut import crossing_free_cuts
     from knotopt.catalogue.lookup import find_knot
     from knotopt.supports.minimal import all_minimal
-    from knotopt.supports.requirements import Requirements
     from knotopt.supports.search import supports_by_cut
 
     named = find_knot(knot)
@@ -182,24 +186,24 @@ def solve(
     if cut == "all":
         cuts = crossing_free_cuts(named.diagram)
         found = supports_by_cut(named.diagram, asked, cuts=cuts, solver=solver, limits=limits)
-        show_cuts(named.name, list(track(found, "cuts", len(cuts))), as_json=as_json)
+        results = track(found, "cuts", len(cuts), lambda result: result.cable.cut)
+        show_cuts(named.name, list(results), as_json=as_json)
         return
-    search, tried = _search(named.diagram, asked, cut, diagrams, solver, limits)
-    result = search.best
-    sets = None
+    search, diagram_search = _search(named.diagram, asked, cut, diagrams, solver, limits)
+    result, sets = search.best, None
     if every and result.found:
-        sets = all_minimal(result, count=count or 1000, solver=solver, limits=limits)
+        sets = all_minimal(result, count=count or MOST_SETS, solver=solver, limits=limits)
     written = _write(named.name, result, plot, export)
     if as_json:
-        content = search_json(named.name, search, tried)
+        content = search_json(named.name, search, diagram_search)
         if sets is not None:
             content["minimal_sets"] = [list(each) for each in sets.sets]
             content["minimal_sets_complete"] = sets.complete
         print_json(content)
     else:
-        show_search(f"{named.name} ({named.source})", search, tried)
+        show_search(f"{named.name} ({named.source})", search, diagram_search)
         if sets is not None:
-            show_sets(sets, count or 1000)
+            show_sets(sets, count or MOST_SETS)
         for path in written:
             print_written(path)
     if not result.found:
@@ -207,6 +211,7 @@ def solve(
 
 
 def _check_options(cut: str, diagrams: int, about_one_cut: dict[str, Any]) -> None:
+    """Options that exclude each other are refused."""
     if cut == "all":
         for option, value in about_one_cut.items():
             if value:
@@ -218,6 +223,7 @@ def _check_options(cut: str, diagrams: int, about_one_cut: dict[str, Any]) -> No
 
 
 def _check_verification(cut: str, others: dict[str, Any]) -> None:
+    """Options that do not go with flights are refused."""
     if cut == "all":
         raise typer.BadParameter(
             "with --verify-physics, give --cut best or a cut's name", param_hint="--cut"
@@ -248,38 +254,33 @@ def _search(
     solver: str,
     limits: Limits,
 ) -> tuple[CutSearch, DiagramSearch | None]:
-    from rich.console import Console
-    from rich.progress import Progress
-
+    """The best cut, perhaps of several diagrams; progress is shown and logged."""
     from knotopt.cable.cut import Cut, crossing_free_cuts
     from knotopt.supports.search import best_diagram, best_supports
 
-    free = crossing_free_cuts(diagram)
-    cuts = free if cut == "best" else (Cut.parse(cut, diagram.size),)
-    console = Console(stderr=True)
-    with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
-        if diagrams == 1:
-            task = bar.add_task("cuts", total=len(cuts))
-            search = best_supports(
+    if diagrams > 1:
+        with progress_bar("diagrams", diagrams) as show:
+            found = best_diagram(
                 diagram,
                 asked,
-                cuts=cuts,
+                budget=diagrams,
+                seed=limits.seed,
                 solver=solver,
                 limits=limits,
-                progress=lambda done: bar.update(task, completed=done),
+                progress=show,
             )
-            return search, None
-        task = bar.add_task("diagrams", total=diagrams)
-        tried = best_diagram(
+        return found.best, found
+    cuts = (Cut.parse(cut, diagram.size),) if cut != "best" else crossing_free_cuts(diagram)
+    with progress_bar("cuts", len(cuts)) as show:
+        search = best_supports(
             diagram,
             asked,
-            budget=diagrams,
-            seed=limits.seed,
+            cuts=cuts,
             solver=solver,
             limits=limits,
-            progress=lambda done: bar.update(task, completed=done),
+            progress=lambda done: show(done, cuts[done - 1]),
         )
-    return tried.best, tried
+    return search, None
 
 
 def _write(

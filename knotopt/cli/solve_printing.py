@@ -1,4 +1,4 @@
-"""What `knotopt solve` says of its results, as text and as JSON."""
+"""What `knotopt solve` prints of its results, as text and as JSON."""
 
 from __future__ import annotations
 
@@ -47,20 +47,24 @@ def supports_json(name: str, result: MinimalSupports) -> dict[str, Any]:
     }
 
 
-def search_json(name: str, search: CutSearch, tried: DiagramSearch | None) -> dict[str, Any]:
+def search_json(
+    name: str, search: CutSearch, diagram_search: DiagramSearch | None = None
+) -> dict[str, Any]:
+    """What `--json` says of a search over cuts, perhaps of several diagrams."""
     cable = search.best.cable
     return supports_json(name, search.best) | {
         "proven_over_cuts": search.is_proven,
         "status_over_cuts": str(search.status),
         "bound_over_cuts": search.bound,
         "cuts": [_outcome_json(outcome) for outcome in search.outcomes],
-        "diagrams_tried": tried.tried if tried else 1,
+        "diagrams_tried": diagram_search.tried if diagram_search else 1,
         "grid": [list(mark) for mark in cable.diagram.marks],
         "path": [list(mark) for mark in cable.path],
     }
 
 
 def show_sets(sets: Enumeration, count: int) -> None:
+    """Print all smallest sets, of which at most `count` were looked for."""
     ending = "" if sets.complete else f", and maybe more (--count {count}, --time-limit)"
     plural = "" if len(sets.sets) == 1 else "s"
     print(f"\n{len(sets.sets)} smallest set{plural}{ending}:")
@@ -69,66 +73,59 @@ def show_sets(sets: Enumeration, count: int) -> None:
 
 
 def show_search(
-    title: str, search: CutSearch, tried: DiagramSearch | None, cut_off: int = 0
+    title: str, search: CutSearch, diagram_search: DiagramSearch | None = None, cut_off: int = 0
 ) -> None:
-    """The best cut's set; `cut_off` says how many smaller ones were ruled out by hand."""
-    from knotopt.cli.drawing import LEADER, SUPPORT, TAIL, draw_text
-    from knotopt.supports.support_set import format_supports
+    """Print the best cut's set; `cut_off` says how many smaller ones were ruled out by hand."""
+    from knotopt.cli.drawing import print_supports
 
     result = search.best
-    cable, asked, solution = result.cable, result.requirements, result.solution
     if not result.found:
         _show_failure(title, search)
         return
-    print(draw_text(cable, result.supports))
-    print(
-        f"\n{SUPPORT} support robot  {TAIL} lifting robot p1  {LEADER} lifting robot pn, the leader"
-    )
-    print(
-        f"\n{title}, cut {cable.cut}: {result.robots} robots instead of {result.baseline} "
-        f"({result.reduction_percent} % fewer)"
-    )
-    print(f"supports: {format_supports(result.placed_supports) or 'none'}\n")
-    closed = ", ".join(result.lcf.regions.name(k) for k in result.lcf_report.closed_regions)
-    milliseconds = 1e3 * (solution.build_seconds + solution.solve_seconds)
-    start = {True: "accepted", False: "not accepted", None: "none given or taken"}
-    clearance = "no region is threaded"
-    if result.smallest_opening is not None:
-        clearance = f"{result.smallest_opening:.3f} grid steps: the smallest opening"
-    facts = [
-        ("formulation", f"{asked.formulation}, threading {asked.threading}{asked_in_words(asked)}"),
-        ("proven", _proof(search) + (f" but for {cut_off} cut off" if cut_off else "")),
-        ("bound", f"{_bound(search)}, on this cut {solution.status} ({solution.raw_status})"),
-        ("checked", "open by the definition" if result.report.is_open else "NOT open"),
-        ("clearance", clearance),
-        (
-            "among equals",
-            "largest smallest opening, then first" if result.canonical else "any of them",
-        ),
-        (
-            "LCF, same cut",
-            f"{result.lcf.robots} robots, " + (f"not open: closes {closed}" if closed else "open"),
-        ),
-        ("solver", f"{solution.solver}, {milliseconds:.1f} ms, seed {solution.seed}"),
-        ("LCF as start", start[solution.start_accepted]),
-        ("instance", result.instance.hash[:16]),
-    ]
-    if tried is not None:
-        facts.insert(
-            1,
-            (
-                "diagrams",
-                f"best of {tried.tried} found by translations and commutations, "
-                f"seed {tried.seed}; others may do better",
-            ),
+    print_supports(title, result)
+    print()
+    facts = _facts(search, cut_off)
+    if diagram_search is not None:
+        words = (
+            f"best of {diagram_search.tried} found by translations and commutations, "
+            f"seed {diagram_search.seed}; others may do better"
         )
+        facts.insert(1, ("diagrams", words))
     print_facts(facts)
     if len(search.outcomes) > 1:
         cells = (_outcome_cells(outcome, result.robots) for outcome in search.outcomes)
         print_table(("cut", "robots", "bound"), cells)
 
 
+def _facts(search: CutSearch, cut_off: int) -> list[tuple[str, str]]:
+    """Of the best cut's set: what was asked, what is proven, how it compares, how it was found."""
+    result = search.best
+    requirements, solution = result.requirements, result.solution
+    closed = ", ".join(result.lcf.regions.name(k) for k in result.lcf_report.closed_regions)
+    milliseconds = 1e3 * (solution.build_seconds + solution.solve_seconds)
+    start = {True: "accepted", False: "not accepted", None: "none given or taken"}
+    clearance = "no region is threaded"
+    if result.smallest_opening is not None:
+        clearance = f"{result.smallest_opening:.3f} grid steps: the smallest opening"
+    asked = f"{requirements.formulation}, threading {requirements.threading}"
+    equals = "largest smallest opening, then first" if result.canonical else "any of them"
+    lcf = f"{result.lcf.robots} robots, " + (f"not open: closes {closed}" if closed else "open")
+    return [
+        ("formulation", asked + asked_in_words(requirements)),
+        ("proven", _proof(search) + (f" but for {cut_off} cut off" if cut_off else "")),
+        ("bound", f"{_bound(search)}, on this cut {solution.status} ({solution.raw_status})"),
+        ("checked", "open by the definition" if result.report.is_open else "NOT open"),
+        ("clearance", clearance),
+        ("among equals", equals),
+        ("LCF, same cut", lcf),
+        ("solver", f"{solution.solver}, {milliseconds:.1f} ms, seed {solution.seed}"),
+        ("LCF as start", start[solution.start_accepted]),
+        ("instance", result.instance.hash[:16]),
+    ]
+
+
 def asked_in_words(asked: Requirements) -> str:
+    """What is asked beyond formulation and threading, to follow them."""
     wishes = [f"r {float(asked.openness):g}"]
     if asked.max_robots is not None:
         wishes = [f"at most {asked.max_robots} robots"]
@@ -171,6 +168,7 @@ def _show_failure(title: str, search: CutSearch) -> None:
 
 
 def show_cuts(name: str, results: list[MinimalSupports], *, as_json: bool) -> None:
+    """Print the smallest set of each cut by itself, a line for each."""
     from knotopt.supports.support_set import format_supports
 
     if as_json:

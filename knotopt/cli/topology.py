@@ -14,9 +14,6 @@ if TYPE_CHECKING:
     from knotopt.topology.goals import Goal
     from knotopt.topology.plan import Plan, PlanGraph
 
-RULES = ("public", "paper", "any")
-GOAL_SETS = ("one", "mirror", "orbit")
-
 
 def topology(
     goal: Annotated[
@@ -31,6 +28,7 @@ def topology(
     cut: Annotated[
         str | None,
         typer.Option(
+            metavar="CUT",
             help="Where a knot's diagram is opened: L+ (by default) L- R+ R- B+ B- T+ T-, or "
             "col3+, row5-.",
             show_default=False,
@@ -39,8 +37,9 @@ def topology(
     goals: Annotated[
         str,
         typer.Option(
+            metavar="NAME",
             help="one (the state itself), mirror (its mirror image too) or orbit (the reverses "
-            "as well)."
+            "as well).",
         ),
     ] = "one",
     start: Annotated[
@@ -49,8 +48,9 @@ def topology(
     rule: Annotated[
         str,
         typer.Option(
+            metavar="NAME",
             help="Which R2 there are: paper (those its parameters tell apart), public (as in the "
-            "authors' code) or any."
+            "authors' code) or any.",
         ),
     ] = "paper",
     shortest: Annotated[
@@ -67,12 +67,13 @@ def topology(
     Exit status 1 if there is none. Example: knotopt topology 3_1 --plot plans.png
     """
     from knotopt.flight.leader_plan import laid_plan, leader_faces
-    from knotopt.topology.goals import read_goal
+    from knotopt.topology.goals import GoalSet, read_goal
+    from knotopt.topology.legal import R2Rule
     from knotopt.topology.plan import plan_graph
 
-    for option, value, words in (("--goals", goals, GOAL_SETS), ("--rule", rule, RULES)):
-        if value not in words:
-            raise typer.BadParameter(f"is one of {', '.join(words)}", param_hint=option)
+    for option, value, names in (("--goals", goals, [*GoalSet]), ("--rule", rule, [*R2Rule])):
+        if value not in names:
+            raise typer.BadParameter(f"is one of {', '.join(names)}", param_hint=option)
     if plot is not None:
         from knotopt.plot.figures import check_format
 

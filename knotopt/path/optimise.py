@@ -7,6 +7,7 @@ path no longer needs go, and others come where it bends (`remesh`).
 
 from __future__ import annotations
 
+import logging
 import math
 import time
 from dataclasses import dataclass
@@ -38,6 +39,7 @@ from knotopt.path.triangulation import triangulate
 from knotopt.supports.regions import Regions
 from knotopt.verify.path import PathReport
 
+logger = logging.getLogger(__name__)
 SPACING = 0.6  # of the path's vertices where it is nearly straight [grid steps]
 FINEST = 0.1  # where it bends [grid steps]
 COARSE, COARSE_ROUNDS = 2.0, 1  # the first rounds, in which the path moves far, use larger ones
@@ -148,6 +150,13 @@ def optimise_path(
         left = math.inf if seconds is None else seconds - (time.perf_counter() - began)
         mesh, status, record = _round(mesh, threads, asked, limits, len(rounds), repairs, left)
         rounds.append(record)
+        logger.debug(
+            "round %d: %s, %d iterations, length %.3f",
+            len(rounds),
+            record.raw_status,
+            record.iterations,
+            record.length,
+        )
         stuck = not any(each.is_solved for each in rounds[-2:]) and len(rounds) >= FEWEST
         over = stuck or (seconds is not None and time.perf_counter() - began > seconds)
         if not over and not _settled(rounds):
@@ -169,6 +178,12 @@ def optimise_path(
     if status is not expected:
         status = PathStatus.STOPPED
     reasons = [*best.missed]
+    logger.info(
+        "path by the program: %s after %d rounds in %.2f s",
+        status,
+        len(rounds),
+        time.perf_counter() - began,
+    )
     if status is PathStatus.INFEASIBLE:
         reasons += [
             f"no way is found for the {WORDS.get(each.family, each.family)} at {each.where}"

@@ -9,6 +9,7 @@ the largest velocity of a step fall below their thresholds. Nothing keeps the di
 
 from __future__ import annotations
 
+import logging
 import time
 from dataclasses import dataclass, fields
 
@@ -23,6 +24,7 @@ from knotopt.path.mesh import between, robot_times
 from knotopt.path.requirements import PathRequirements
 from knotopt.path.result import PathResult, examine, unmet
 
+logger = logging.getLogger(__name__)
 ASTRAY = 10.0  # times the grid's size, beyond which a node has gone astray
 NEAR_ZERO = 1e-9  # shorter vectors have no direction
 
@@ -201,6 +203,7 @@ def relaxed_path(
     status = PathStatus.SOLVED if run.converged else PathStatus.STOPPED
     words = "converged" if run.converged else f"not converged in {run.steps} steps"
     spent = time.perf_counter() - began
+    logger.info("path by relaxation: %s in %.2f s", words, spent)
     report = examine(cable, supports, curve, asked)
     return PathResult(
         cable,

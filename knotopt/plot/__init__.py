@@ -1,8 +1,5 @@
 """Pictures, by matplotlib: importing anything from here needs the `viz` extra."""
 
-from knotopt.errors import MissingExtraError
+from knotopt.errors import require_extra
 
-try:
-    import matplotlib  # noqa: F401
-except ImportError as error:
-    raise MissingExtraError("matplotlib", "viz", "drawing pictures") from error
+require_extra("matplotlib", "viz", "drawing pictures")
