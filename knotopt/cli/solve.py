@@ -30,8 +30,8 @@ from knotopt.cli.solve_flown import (
     PhysicsBudgetOption,
     TrialsOption,
     fly_sets,
-    show_flown,
 )
+from knotopt.cli.solve_flown_printing import show_flown
 from knotopt.cli.solve_printing import (
     asked_in_words,
     search_json,

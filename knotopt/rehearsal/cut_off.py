@@ -123,7 +123,7 @@ class FlownResult:
         budget ended, the next one, which was not flown; else without a set.
     cut_off : tuple of CutOff
         In the order in which they were flown.
-    flown : FlownSet or None
+    tied : FlownSet or None
         The set that ties.
     tests : FlightTests
         That each set was put to.
@@ -132,7 +132,7 @@ class FlownResult:
     status: FlownStatus
     search: CutSearch
     cut_off: tuple[CutOff, ...]
-    flown: FlownSet | None
+    tied: FlownSet | None
     tests: FlightTests
 
     @property
@@ -214,7 +214,7 @@ def solve_flown(
         diagram, requirements, cuts=cuts, excluded=passed, solver=solver, limits=limits
     ):
         best = search.best
-        flown: FlownSet | None = None
+        tied: FlownSet | None = None
         late = tests.seconds is not None and time.monotonic() - began >= tests.seconds
         if not best.found:
             none = search.status is Status.INFEASIBLE
@@ -228,8 +228,8 @@ def solve_flown(
                 if on_cut_off is not None:
                     on_cut_off(outcome)
                 continue
-            status, flown = FlownStatus.TIED, outcome
-        return FlownResult(status, search, tuple(cut_off), flown, tests)
+            status, tied = FlownStatus.TIED, outcome
+        return FlownResult(status, search, tuple(cut_off), tied, tests)
     raise AssertionError("sets in order end with a search that found none")
 
 

@@ -84,8 +84,8 @@ def test_the_smallest_set_that_ties_by_exhaustive_search() -> None:
     assert list(map(len, failed)) == sorted(map(len, failed))
     assert flights.flown == [("L+", supports) for supports in (*failed, found.result.supports)]
     assert sum(found.cut_off_by_robots.values()) == len(failed)
-    assert found.flown is not None and found.flown.is_tied
-    assert len(found.flown.disturbed) == found.tests.trials == 3 and found.tests.noise == 0.01
+    assert found.tied is not None and found.tied.is_tied
+    assert len(found.tied.disturbed) == found.tests.trials == 3 and found.tests.noise == 0.01
 
 
 def test_over_cuts_the_next_set_may_be_on_another() -> None:
@@ -127,7 +127,7 @@ def test_a_set_without_a_plan_is_cut_off(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr(cut_off, "rehearse_flight", no_route)
     monkeypatch.setattr(Simulator, "require", lambda _: None)
     found = solve_flown("3_1", KNOT, SPAN, FlightTests(max_cut=2))
-    assert found.status is FlownStatus.BUDGET and found.flown is None
+    assert found.status is FlownStatus.BUDGET and found.tied is None
     assert {each.tied_instead for each in found.cut_off} == {"no flight planned"}
     first = found.cut_off[0]
     assert (first.verdict, first.trials, first.failed) == (None, (), "no route over span 3")
@@ -210,9 +210,9 @@ def test_in_physics() -> None:
     diagram = find_knot("3").diagram
     tests = FlightTests(max_cut=3, trials=2)
     found = solve_flown("3_1", diagram, SPAN, tests)
-    assert found.status is FlownStatus.TIED and found.flown is not None
-    assert found.flown.plan.supports == found.result.supports
-    assert len(found.flown.disturbed) == 2
+    assert found.status is FlownStatus.TIED and found.tied is not None
+    assert found.tied.plan.supports == found.result.supports
+    assert len(found.tied.disturbed) == 2
     lost = fly_set("3_1", replace(found.result, supports=()), tests)
     assert not lost.is_tied and not lost.disturbed
     assert CutOff.of(found.result, lost).failed == AS_PLANNED
