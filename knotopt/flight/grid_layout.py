@@ -18,7 +18,7 @@ import numpy as np
 
 from knotopt.arrays import FloatArray, IntArray
 from knotopt.cable.cable import Cable
-from knotopt.flight.layout import Layout, Letter, Word
+from knotopt.flight.layout import Layout, Letter, Word, reduced
 from knotopt.path.mesh import robot_times
 
 NUDGE = np.array([1.7e-6, 1.1e-6])  # off lattice points, through which straight spans may pass
@@ -76,18 +76,8 @@ def span_words(cable: Cable, supports: tuple[int, ...]) -> tuple[Word, ...]:
         leaving = _swept(cable, times, places, span - 1, span)
         entering = _swept(cable, times, places, span, span)
         inverse = [replace(letter, sense=-letter.sense) for letter in reversed(leaving)]
-        found.append(_reduced([*inverse, *word, *entering]))
+        found.append(reduced([*inverse, *word, *entering]))
     return tuple(found)
-
-
-def _reduced(letters: list[Letter]) -> Word:
-    word: list[Letter] = []
-    for letter in letters:
-        if word and word[-1].cancels(letter):
-            word.pop()
-        else:
-            word.append(letter)
-    return tuple(word)
 
 
 def _swept(

@@ -6,8 +6,9 @@ laid. Its word is the list of its crossings with them in the order of flight, ea
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Protocol, Self, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -51,6 +52,34 @@ class Letter:
 
 
 Word = tuple[Letter, ...]
+
+
+class Cancelling(Protocol):
+    """What may undo another of its kind, such as a letter."""
+
+    def cancels(self, other: Self, /) -> bool: ...
+
+
+AnyCancelling = TypeVar("AnyCancelling", bound=Cancelling)
+
+
+def reduced(letters: Iterable[AnyCancelling]) -> tuple[AnyCancelling, ...]:
+    """What is left when neighbours that cancel are taken out, repeatedly.
+
+    Examples
+    --------
+    >>> there, back = Letter(1, True, 1, None), Letter(1, True, -1, None)
+    >>> under = Letter(2, False, 1, None)
+    >>> reduced([there, under, there, back]) == (there, under)
+    True
+    """
+    left: list[AnyCancelling] = []
+    for letter in letters:
+        if left and left[-1].cancels(letter):
+            left.pop()
+        else:
+            left.append(letter)
+    return tuple(left)
 
 
 @dataclass(frozen=True, eq=False)

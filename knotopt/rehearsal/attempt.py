@@ -13,6 +13,7 @@ from knotopt.arrays import FloatArray
 from knotopt.errors import RequirementError
 from knotopt.flight.formation import NODES
 from knotopt.flight.layout import Word
+from knotopt.flight.leader_crossings import happened_word, leader_crossings
 from knotopt.flight.plan import MotionPlan
 from knotopt.flight.planner import INTERVAL, FlightPlanner, kept, sample_times
 from knotopt.flight.route import HeightShape, SpanRoute, SpanShape
@@ -20,8 +21,6 @@ from knotopt.flight.router import Router, RouteShape
 from knotopt.rehearsal.observer import Observer
 from knotopt.sim.simulation import Checkpoint
 from knotopt.sim.simulators import MUJOCO, Simulator
-from knotopt.verify.flight import leader_events
-from knotopt.verify.flight_word import reduced_word
 
 logger = logging.getLogger(__name__)
 
@@ -254,30 +253,18 @@ class RehearsedFlight:
         Near to being wrong are crossings beyond the word, although others undid them, and those
         with little height between.
         """
-        record = self.simulation.record()
-        later = record.clock >= self.began[span - 1] - 0.3
-        times = np.array(self.began + [1e9] * (self.planner.robots - 1 - len(self.began)))
-        events = [
-            event
-            for event in leader_events(
-                record.times[later],
-                record.cable[later],
-                record.held,
-                times,
-                clock=record.clock[later],
-            )
-            if event.span == span
-        ]
-        word = self.planner.words[span - 1][:gates]
-        happened = [(event.older, event.over, event.sense) for event in reduced_word(events)]
-        wanted = [(letter.older, letter.over, letter.sense) for letter in word]
+        crossings = leader_crossings(self.simulation.record(), span, self.began[span - 1])
+        wanted, happened = (
+            [(letter.older, letter.over, letter.sense) for letter in word]
+            for word in (self.planner.words[span - 1][:gates], happened_word(crossings))
+        )
         same = 0
         while same < min(len(wanted), len(happened)) and wanted[same] == happened[same]:
             same += 1
         wrong = len(wanted) + len(happened) - 2 * same
         tight = CLOSE * self.planner.world.step
-        near = sum(not event.own and abs(event.gap) < tight for event in events)
-        near += max(sum(not event.curl for event in events) - len(wanted), 0)
+        near = sum(not each.is_own and abs(each.gap) < tight for each in crossings)
+        near += max(sum(not each.is_curl for each in crossings) - len(wanted), 0)
         return wrong, near
 
 
