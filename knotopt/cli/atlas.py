@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,33 +9,26 @@ import typer
 
 from formulations.backends import BACKENDS
 from knotopt.atlas.schema import Settings
-from knotopt.cli.options import CatalogueOption, OpennessOption, unless_given
+from knotopt.cli.options import CatalogueOption, OpennessOption, refuse, unless_given
 from knotopt.cli.printing import print_facts, print_written
+from knotopt.cli.progress import progress_bar
 from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
-    from rich.progress import Task
-    from rich.text import Text
-
     from knotopt.atlas.engine import Engine
     from knotopt.atlas.run import Progress
     from knotopt.atlas.schema import KnotRow
 
 
 def atlas(
-    run_dir: Annotated[
-        Path, typer.Argument(metavar="RUN_DIR", show_default=False, help="Folder of the results.")
-    ],
+    run_dir: Annotated[Path, typer.Argument(metavar="RUN_DIR", help="Folder of the results.")],
     knots: Annotated[
         list[str] | None,
-        typer.Argument(
-            metavar="KNOT", show_default=False, help="Knots; by default those of --catalogue."
-        ),
+        typer.Argument(metavar="KNOT", help="Knots; by default those of --catalogue."),
     ] = None,
     catalogue: CatalogueOption = False,
     knotinfo: Annotated[
-        bool,
-        typer.Option("--knotinfo", help="All 12,965 up to 13 crossings (the knotinfo extra)."),
+        bool, typer.Option("--knotinfo", help="All 12,965 up to 13 crossings (the knotinfo extra).")
     ] = False,
     grids: Annotated[
         Path | None,
@@ -54,7 +45,6 @@ def atlas(
         str | None,
         typer.Option(
             metavar="NAME,NAME...",
-            show_default=False,
             help=f"Solve the programs by each of these as well: {', '.join(BACKENDS)}.",
         ),
     ] = None,
@@ -85,10 +75,7 @@ def atlas(
         ),
     ] = Settings.check,
     jobs: Annotated[
-        int | None,
-        typer.Option(
-            min=1, metavar="N", help="Processes; by default one a core.", show_default=False
-        ),
+        int | None, typer.Option(min=1, metavar="N", help="Processes; by default one a core.")
     ] = None,
     scheduler: Annotated[
         str | None,
@@ -106,7 +93,7 @@ def atlas(
 
     listed = _list(knots, grids, catalogue=catalogue, knotinfo=knotinfo)
     if solver_limit is not None and solvers is None:
-        raise typer.BadParameter("goes with --solvers", param_hint="--solver-limit")
+        refuse("--solver-limit", "goes with --solvers")
     settings = Settings(
         str(Requirements(openness=r).openness),
         seed,
@@ -118,18 +105,17 @@ def atlas(
         physics,
     )
     engine = _engine(jobs, scheduler)
-    state: Progress | None = None
+    done = 0
     try:
-        with _bar() as show:
+        with progress_bar("knots", len(listed)) as show:
 
-            def progress(now: Progress) -> None:
-                nonlocal state
-                state = now
-                show(now)
+            def progress(state: Progress) -> None:
+                nonlocal done
+                done = state.before + state.measured
+                show(done)
 
             run_atlas(run_dir, listed, settings, engine, progress)
     except KeyboardInterrupt:
-        done = state.before + state.measured if state else 0
         typer.echo(
             f"knotopt: interrupted with {done} of {len(listed)} knots measured; "
             "the same command goes on from there",
@@ -146,9 +132,7 @@ def _list(
     from knotopt.catalogue.lookup import find_knot
 
     if sum(map(bool, (knots, grids, catalogue, knotinfo))) > 1:
-        raise typer.BadParameter(
-            "give one of: knots, --catalogue, --knotinfo, --grids", param_hint="KNOT..."
-        )
+        refuse("KNOT...", "give one of: knots, --catalogue, --knotinfo, --grids")
     if knots:
         return knot_rows(map(find_knot, knots))
     return folder_rows(grids) if grids else catalogue_rows(knotinfo=knotinfo)
@@ -169,56 +153,13 @@ def _engine(jobs: int | None, scheduler: str | None) -> Engine:
 
     if scheduler is not None:
         if jobs is not None:
-            raise typer.BadParameter(
-                "a cluster has the workers it has: give --jobs or --scheduler",
-                param_hint="--jobs",
-            )
+            refuse("--jobs", "a cluster has the workers it has: give --jobs or --scheduler")
         return Cluster(scheduler)
     if jobs is None:
         from joblib import cpu_count
 
         jobs = cpu_count()
     return Local(jobs)
-
-
-@contextmanager
-def _bar() -> Iterator[Callable[[Progress], None]]:
-    """A progress bar on the error stream, with rate and time left by the knots of this run."""
-    from rich import progress as bars
-    from rich.console import Console
-    from rich.text import Text
-
-    class Rate(bars.ProgressColumn):
-        def render(self, task: Task) -> Text:
-            return Text(f"{task.speed or 0:.1f} knots/s")
-
-    console = Console(stderr=True)
-    columns = (
-        bars.TextColumn("knots"),
-        bars.BarColumn(),
-        bars.MofNCompleteColumn(),
-        Rate(),
-        bars.TimeElapsedColumn(),
-        bars.TextColumn("left"),
-        bars.TimeRemainingColumn(),
-    )
-    with bars.Progress(
-        *columns,
-        console=console,
-        transient=True,
-        disable=not console.is_terminal,
-        speed_estimate_period=120,
-    ) as bar:
-        task = bar.add_task("knots", total=None)
-
-        def show(now: Progress) -> None:
-            if now.measured == 0:  # what earlier runs measured is no part of the rate
-                bar.update(task, total=now.knots, completed=now.before)
-                bar.reset(task, total=now.knots, completed=now.before)
-            else:
-                bar.update(task, advance=1)
-
-        yield show
 
 
 def _requested_facts(run_dir: Path) -> list[tuple[str, object]]:

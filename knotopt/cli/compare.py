@@ -16,6 +16,7 @@ from knotopt.cli.options import (
     OpennessOption,
     SolverOption,
     TimeLimitOption,
+    cut_option,
     find_knots,
     run_header,
     solver_limits,
@@ -31,14 +32,7 @@ if TYPE_CHECKING:
 def compare(
     knots: KnotsArgument = None,
     catalogue: CatalogueOption = False,
-    cut: Annotated[
-        str,
-        typer.Option(
-            metavar="CUT",
-            help="best (each method's own of the crossing-free cuts), or one: L+ L- R+ R- B+ B- T+ "
-            "T-, col3+, row5-.",
-        ),
-    ] = "best",
+    cut: Annotated[str, cut_option("best (each method's own of the crossing-free cuts)")] = "best",
     r: OpennessOption = None,
     solver: SolverOption = "cp-sat",
     time_limit: TimeLimitOption = None,

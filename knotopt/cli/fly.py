@@ -17,7 +17,9 @@ from knotopt.cli.options import (
     KnotArgument,
     SupportsCutOption,
     SupportsOption,
+    check_choice,
     openness_option,
+    refuse,
     unless_given,
 )
 from knotopt.cli.printing import print_json, print_written
@@ -135,12 +137,9 @@ def fly(
     from knotopt.catalogue.lookup import find_knot
     from knotopt.supports.selection import equally_small
 
-    if schedule not in SCHEDULES:
-        raise typer.BadParameter(f"is one of {', '.join(SCHEDULES)}", param_hint="--schedule")
+    check_choice("--schedule", schedule, SCHEDULES)
     if supports != "milp" and (r is not None or formulation is not None):
-        raise typer.BadParameter(
-            "goes with --supports milp", param_hint="--formulation" if r is None else "--r"
-        )
+        refuse("--formulation" if r is None else "--r", "goes with --supports milp")
     requirements = Requirements(
         formulation or FLOWN.formulation, FLOWN.openness if r is None else r
     )
@@ -166,7 +165,7 @@ def fly(
 def _refuse_without_physics(given: Mapping[str, object]) -> None:
     for name, value in given.items():
         if value is not None:
-            raise typer.BadParameter("goes with --sim", param_hint=f"--{name}")
+            refuse(f"--{name}", "goes with --sim")
 
 
 def _disturbances(given: Mapping[str, Any]) -> list[Disturbance]:
@@ -183,7 +182,7 @@ def _wind(text: str) -> tuple[float, float]:
     except ValueError:
         x = y = math.nan
     if not (math.isfinite(x) and math.isfinite(y)):
-        raise typer.BadParameter(f"is X,Y in m/s, such as 0.3,0; not {text!r}", param_hint="--wind")
+        refuse("--wind", f"is X,Y in m/s, such as 0.3,0; not {text!r}")
     return x, y
 
 

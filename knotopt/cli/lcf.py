@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
-from knotopt.cli.options import JsonOption, KnotArgument, LayeredOption, PlotOption
+from knotopt.cli.options import (
+    JsonOption,
+    KnotArgument,
+    LayeredOption,
+    PlotOption,
+    cut_option,
+    refuse,
+)
 from knotopt.cli.printing import print_json, print_table, print_written
 
 if TYPE_CHECKING:
@@ -16,12 +21,7 @@ if TYPE_CHECKING:
 def lcf(
     knot: KnotArgument,
     cut: Annotated[
-        str,
-        typer.Option(
-            metavar="CUT",
-            help="best (of the outer cuts), all (that are crossing-free), "
-            "or one: L+ L- R+ R- B+ B- T+ T-, col3+, row5-.",
-        ),
+        str, cut_option("best (of the outer cuts), all (that are crossing-free)")
     ] = "best",
     layered: LayeredOption = False,
     plot: PlotOption = None,
@@ -39,9 +39,7 @@ def lcf(
     named = find_knot(knot)
     if cut == "all":
         if plot is not None:
-            raise typer.BadParameter(
-                "draws one cut: give --cut best or a cut's name", param_hint="--plot"
-            )
+            refuse("--plot", "draws one cut: give --cut best or a cut's name")
         cuts = crossing_free_cuts(named.diagram)
         by_cut = lcf_by_cut(named.diagram, layered=layered, cuts=cuts)
         _print_cuts(named.name, list(by_cut.values()), as_json=as_json)

@@ -41,7 +41,6 @@ LogOption = Annotated[
     typer.Option(
         "--log",
         metavar="FILE",
-        show_default=False,
         help="Append the same to a file, with times: where a run of hours spent them.",
     ),
 ]
@@ -72,19 +71,12 @@ def telling(print_line: Callable[[str], None]) -> Iterator[None]:
 
 @contextmanager
 def logging_to(verbose: int, file: Path | None) -> Iterator[None]:
-    """Log what a block does as the options say.
-
-    Parameters
-    ----------
-    verbose : int
-        1: INFO to the error stream; 2: DEBUG as well, also in the file.
-    file : Path or None
-        Lines are appended.
+    """Log what a block does: INFO to the error stream (verbose 1) and to a file; DEBUG (2) as well.
 
     Raises
     ------
     OutputError
-        The file cannot be written.
+        The file, to which lines are appended, cannot be written.
     """
     level = logging.DEBUG if verbose > 1 else logging.INFO
     with ExitStack() as stack:
@@ -114,6 +106,9 @@ def logged(command: Callable[..., None]) -> Callable[..., None]:
             ending = "done"
             try:
                 command(*arguments, **options)
+            except typer.Exit as end:
+                ending = f"exit status {end.exit_code}"
+                raise
             except BaseException as error:
                 ending = f"ended by {type(error).__name__}: {error}".rstrip(": ")
                 raise

@@ -6,8 +6,9 @@ An option's default is that of the dataclass that it fills, read from there.
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
@@ -44,11 +45,16 @@ def openness_option(default: Any = Requirements.openness) -> Any:
     return unless_given(default, "Openness r in (0, 1] [grid steps].", "--r")
 
 
+def cut_option(words: str) -> Any:
+    """The option --cut: what else it can be, before the cuts' own names."""
+    help = f"{words}, or one: L+ L- R+ R- B+ B- T+ T-, col3+, row5-."
+    return typer.Option(metavar="CUT", help=help)
+
+
 KnotArgument = Annotated[
     str,
     typer.Argument(
         metavar="KNOT",
-        show_default=False,
         help="A name (8_19), a row of Table I (3, '7 Var1'), 'T(2,7)', or a .json or .csv file.",
     ),
 ]
@@ -56,7 +62,6 @@ KnotsArgument = Annotated[
     list[str] | None,
     typer.Argument(
         metavar="KNOT",
-        show_default=False,
         help="Names (8_19), rows of Table I (3, '7 Var1'), 'T(2,7)', or .json or .csv files.",
     ),
 ]
@@ -65,8 +70,7 @@ CatalogueOption = Annotated[
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
 PlotOption = Annotated[
-    Path | None,
-    typer.Option("--plot", metavar="FILE", help="Draw a picture: .png, .pdf or .svg."),
+    Path | None, typer.Option("--plot", metavar="FILE", help="Draw a picture: .png, .pdf or .svg.")
 ]
 LayeredOption = Annotated[
     bool,
@@ -80,15 +84,7 @@ SupportsOption = Annotated[
         "such as solve --json and lcf --json print.",
     ),
 ]
-SupportsCutOption = Annotated[
-    str,
-    typer.Option(
-        metavar="CUT",
-        help="best (for those supports; a file's own), or one: L+ L- R+ R- B+ B- T+ T-, col3+, "
-        "row5-.",
-    ),
-]
-
+SupportsCutOption = Annotated[str, cut_option("best (for those supports; a file's own)")]
 FormulationOption = Annotated[
     str,
     typer.Option(
@@ -102,18 +98,26 @@ ThreadingOption = Annotated[
         metavar="NAME",
         help="What threads a region: turning-point or over-under; by default the former for "
         "opening, the latter for span.",
-        show_default=False,
     ),
 ]
 OpennessOption = Annotated[float | None, openness_option()]
 SolverOption = Annotated[
-    str,
-    typer.Option(metavar="NAME", help=f"{', '.join(BACKENDS)} (22 points at most)."),
+    str, typer.Option(metavar="NAME", help=f"{', '.join(BACKENDS)} (22 points at most).")
 ]
 TimeLimitOption = Annotated[
-    float | None,
-    typer.Option(help="Stop after so many seconds.", metavar="S", show_default=False),
+    float | None, typer.Option(help="Stop after so many seconds.", metavar="S")
 ]
+
+
+def refuse(option: str, why: str) -> NoReturn:
+    """End with exit status 2, usage, and what is wrong with an option."""
+    raise typer.BadParameter(why, param_hint=option)
+
+
+def check_choice(option: str, value: str, names: Iterable[str]) -> None:
+    """Refuse what is not one of the names."""
+    if value not in (listed := [*names]):
+        refuse(option, f"is one of {', '.join(listed)}")
 
 
 def find_knots(names: list[str] | None, *, catalogue: bool) -> list[NamedDiagram]:
@@ -122,7 +126,7 @@ def find_knots(names: list[str] | None, *, catalogue: bool) -> list[NamedDiagram
     from knotopt.catalogue.lookup import find_knot
 
     if catalogue == bool(names):
-        raise typer.BadParameter("give knots, or --catalogue", param_hint="KNOT...")
+        refuse("KNOT...", "give knots, or --catalogue")
     return [find_knot(name) for name in (shipped_knots() if catalogue else names or ())]
 
 

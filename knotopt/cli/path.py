@@ -17,6 +17,8 @@ from knotopt.cli.options import (
     SupportsCutOption,
     SupportsOption,
     TimeLimitOption,
+    check_choice,
+    refuse,
     unless_given,
 )
 from knotopt.cli.printing import print_facts, print_json, print_note, print_table, print_written
@@ -64,8 +66,7 @@ def path(
         float, typer.Option(help="Weight of bending against length [grid steps].")
     ] = PathRequirements.bending,
     step: Annotated[
-        float | None,
-        typer.Option(help="Metres per grid step: adds lengths in metres.", show_default=False),
+        float | None, typer.Option(help="Metres per grid step: adds lengths in metres.")
     ] = None,
     altitude: Annotated[
         float | None, unless_given(World.altitude, "With --step: of hovering robots [m].")
@@ -104,13 +105,10 @@ def path(
     from knotopt.path.relaxation import relaxed_path
     from knotopt.supports.selection import choose_supports
 
-    if method not in METHODS:
-        raise typer.BadParameter(f"is one of {', '.join(METHODS)}", param_hint="--method")
+    check_choice("--method", method, METHODS)
     _check_outputs(plot, out, method)
     if supports != "milp" and (r is not None or formulation != Requirements.formulation):
-        raise typer.BadParameter(
-            "goes with --supports milp", param_hint="--formulation" if r is None else "--r"
-        )
+        refuse("--formulation" if r is None else "--r", "goes with --supports milp")
     asked = PathRequirements(clearance, opening, slope=slope, bending=bending)
     room = {
         "altitude": altitude,
@@ -147,14 +145,11 @@ def path(
 def _world(step: float | None, room: dict[str, float], gap: float | None) -> World | None:
     """The world that the options describe, if any."""
     if step is not None and gap is not None:
-        raise typer.BadParameter(
-            "is in grid steps; with --step it follows from --drone-height and --downwash",
-            param_hint="--gap",
+        refuse(
+            "--gap", "is in grid steps; with --step it follows from --drone-height and --downwash"
         )
     if step is None and room:
-        raise typer.BadParameter(
-            "goes with --step", param_hint="--" + next(iter(room)).replace("_", "-")
-        )
+        refuse("--" + next(iter(room)).replace("_", "-"), "goes with --step")
     return None if step is None else World(step, **room)
 
 
@@ -169,17 +164,11 @@ def _check_outputs(plot: Path | None, out: Path | None, method: str) -> None:
     if out is not None and out.suffix.lower() != ".csv":
         raise OutputError(f"{out}: curves are written as .csv")
     if out is not None and method == "both":
-        raise typer.BadParameter(
-            "writes one curve: give --method nlp or relaxation", param_hint="--out"
-        )
+        refuse("--out", "writes one curve: give --method nlp or relaxation")
 
 
 def _write(
-    results: list[PathResult],
-    title: str,
-    world: World | None,
-    plot: Path | None,
-    out: Path | None,
+    results: list[PathResult], title: str, world: World | None, plot: Path | None, out: Path | None
 ) -> list[Path]:
     """Write the picture and the curve; return what was written."""
     written = []

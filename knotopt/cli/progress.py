@@ -6,7 +6,11 @@ import logging
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
+
+if TYPE_CHECKING:
+    from rich.progress import Task
+    from rich.text import Text
 
 Item = TypeVar("Item")
 logger = logging.getLogger(__name__)
@@ -19,29 +23,66 @@ def track(
     name: Callable[[Item], object] = lambda item: getattr(item, "name", ""),
 ) -> Iterator[Item]:
     """The items, with a bar while they are gone through, and a line in the log after each."""
-    with progress_bar(what, total) as show:
+    with logged_bar(what, total) as show:
         for done, item in enumerate(items, 1):
             yield item
             show(done, name(item))
 
 
 @contextmanager
-def progress_bar(what: str, total: int) -> Iterator[Callable[..., None]]:
-    """A bar on the error stream; what it yields is told how many are done, and the last's name."""
-    from rich.console import Console
-    from rich.progress import Progress
-
-    console = Console(stderr=True)
-    with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
-        task = bar.add_task(what, total=total)
+def logged_bar(what: str, total: int) -> Iterator[Callable[..., None]]:
+    """A bar whose every step is logged; what it yields is told how many are done, and the last."""
+    with progress_bar(what, total) as show:
         before = time.monotonic()
 
-        def show(done: int, name: object = "") -> None:
+        def log(done: int, name: object = "") -> None:
             nonlocal before
             now = time.monotonic()
             words = f" ({name})" if name else ""
             logger.info("%s: %d of %d%s in %.2f s", what, done, total, words, now - before)
             before = now
-            bar.update(task, completed=done)
+            show(done)
+
+        yield log
+
+
+@contextmanager
+def progress_bar(what: str, total: int) -> Iterator[Callable[[int], None]]:
+    """A bar on the error stream, with rate and time left; what it yields is told how many are done.
+
+    What is done already when it is first told is no part of the rate.
+    """
+    from rich import progress
+    from rich.console import Console
+    from rich.text import Text
+
+    class Rate(progress.ProgressColumn):
+        def render(self, task: Task) -> Text:
+            return Text(f"{task.speed or 0:.1f} {what}/s")
+
+    console = Console(stderr=True)
+    columns = (
+        progress.TextColumn(what),
+        progress.BarColumn(),
+        progress.MofNCompleteColumn(),
+        Rate(),
+        progress.TimeElapsedColumn(),
+        progress.TextColumn("left"),
+        progress.TimeRemainingColumn(),
+    )
+    with progress.Progress(
+        *columns,
+        console=console,
+        transient=True,
+        disable=not console.is_terminal,
+        speed_estimate_period=120,
+    ) as bar:
+        task = bar.add_task(what, total=total)
+
+        def show(done: int) -> None:
+            if done > bar.tasks[task].completed + 1:
+                bar.reset(task, completed=done)
+            else:
+                bar.update(task, completed=done)
 
         yield show

@@ -17,7 +17,9 @@ from knotopt.cli.options import (
     OpennessOption,
     ThreadingOption,
     TimeLimitOption,
+    cut_option,
     find_knots,
+    refuse,
     run_header,
     solver_limits,
 )
@@ -35,21 +37,13 @@ def prove(
     formulation: FormulationOption = Requirements.formulation,
     threading: ThreadingOption = None,
     r: OpennessOption = None,
-    cut: Annotated[
-        str,
-        typer.Option(
-            metavar="CUT",
-            help="best: the bound holds for every crossing-free cut; or one: L+ L- R+ R- B+ B- T+ "
-            "T-, col3+, row5-.",
-        ),
-    ] = "best",
+    cut: Annotated[str, cut_option("best: the bound holds for every crossing-free cut")] = "best",
     method: Annotated[
         str | None,
         typer.Option(
             metavar="NAME",
             help="refutation (by CaDiCaL; the default) or count (the checker examines every "
             "smaller set).",
-            show_default=False,
         ),
     ] = None,
     time_limit: TimeLimitOption = None,
@@ -69,7 +63,7 @@ def prove(
 
     found = find_knots(knots, catalogue=catalogue)
     if method not in (None, *get_args(Method)):
-        raise typer.BadParameter("expected refutation or count", param_hint="--method")
+        refuse("--method", "expected refutation or count")
     asked = Requirements(formulation, r, threading)
     limits = solver_limits(time_limit)
     settings = [formulation, asked.threading, str(asked.openness), cut, method]
@@ -107,28 +101,16 @@ def prove(
 
 def _print_claims(claims: list[dict[str, Any]]) -> None:
     """Print what certificates say."""
+    said = ("knot", "formulation", "openness", "robots", "cut")
     print_table(
         ("knot", "formulation", "r", "robots", "cut", "smallest over"),
-        (
-            (
-                claim["knot"],
-                claim["formulation"],
-                claim["openness"],
-                claim["robots"],
-                claim["cut"],
-                f"{len(claim['bounds'])} cuts",
-            )
-            for claim in claims
-        ),
+        ((*(claim[key] for key in said), f"{len(claim['bounds'])} cuts") for claim in claims),
     )
 
 
 def check(
     files: Annotated[
-        list[Path],
-        typer.Argument(
-            metavar="FILE", show_default=False, help="As prove writes them, one a line."
-        ),
+        list[Path], typer.Argument(metavar="FILE", help="As prove writes them, one a line.")
     ],
     as_json: JsonOption = False,
 ) -> None:
@@ -200,15 +182,12 @@ def _print_verdicts(accepted: list[dict[str, Any]], rejected: list[dict[str, Any
             ("named", "grid", "formulation", "r", "robots", "cut", "smallest over"),
             (
                 (
-                    verdict["knot"],
-                    verdict["grid"],
-                    verdict["formulation"],
-                    f"{verdict['openness']:g}",
-                    verdict["robots_after"],
-                    verdict["cut"],
-                    ("all " if verdict["every_cut"] else "") + f"{verdict['cuts']} cuts",
+                    *(each[key] for key in ("knot", "grid", "formulation")),
+                    f"{each['openness']:g}",
+                    *(each[key] for key in ("robots_after", "cut")),
+                    f"{'all ' * each['every_cut']}{each['cuts']} cuts",
                 )
-                for verdict in accepted
+                for each in accepted
             ),
         )
     for each in rejected:

@@ -49,11 +49,12 @@ def show(
         from knotopt.plot.figures import cable_figure, save_figure
 
         save_figure(cable_figure(cable, f"{named.name}, cut {cable.cut}"), plot)
+    content = _json(named, cable, simplest, polynomial)
     if as_json:
-        print_json(_json(named, cable, simplest, polynomial))
+        print_json(content)
         return
     print(draw_text(cable), end="\n\n")
-    print_facts(_facts(named, cable, simplest, polynomial))
+    print_facts(_facts(content, len(simplest.crossings)))
     if plot is not None:
         print_written(plot)
 
@@ -107,40 +108,31 @@ def _json(
     }
 
 
-def _facts(
-    named: NamedDiagram, cable: Cable, simplest: Cable, polynomial: tuple[int, ...] | None
-) -> list[tuple[str, Any]]:
-    """What is printed below the drawing."""
-    from knotopt.cable.alexander import determinant, format_polynomial
-    from knotopt.cable.cut import crossing_free_cuts
-    from knotopt.cable.notation import dt_code, gauss_code, pd_code
-    from knotopt.cable.staircase import find_staircases
+def _facts(content: dict[str, Any], fewest: int) -> list[tuple[str, Any]]:
+    """What is printed below the drawing; `fewest` crossings has the simplest diagram found."""
+    from knotopt.cable.alexander import format_polynomial
 
     unknown = (
-        f"not computed: the smallest grid found has {len(simplest.crossings)} crossings, "
-        f"more than {MAX_CROSSINGS}"
+        f"not computed: the smallest grid found has {fewest} crossings, more than {MAX_CROSSINGS}"
     )
-    signature = named.prime_knot and named.prime_knot.signature
+    alexander, signature = content["alexander"], content["signature"]
     staircases = [
-        f"{len(staircase)} crossings {staircase.direction}"
-        + (" (twist)" if staircase.is_twist else "")
-        for staircase in find_staircases(cable)
+        f"{len(each['crossings'])} crossings {each['direction']}"
+        + (" (twist)" if each["is_twist"] else "")
+        for each in content["staircases"]
     ]
     return [
-        ("knot", f"{named.name} ({named.source})"),
-        ("grid size", f"{named.diagram.size} (smallest found: {simplest.diagram.size})"),
-        ("cut", f"{cable.cut} of " + " ".join(map(str, crossing_free_cuts(named.diagram)))),
-        ("turning points", len(cable.path)),
-        ("cable length", f"{cable.length} grid steps"),
-        ("crossings", f"{len(cable.crossings)}, writhe {int(cable.crossings.sign.sum())}"),
-        ("Alexander", unknown if polynomial is None else format_polynomial(polynomial)),
-        (
-            "signature",
-            "known for knots of the catalogue only" if signature is None else signature,
-        ),
-        ("determinant", unknown if polynomial is None else determinant(polynomial)),
-        ("Gauss code", " ".join(map(str, gauss_code(cable)))),
-        ("PD code", " ".join(map(str, pd_code(cable)))),
-        ("DT code", " ".join(map(str, dt_code(cable)))),
+        ("knot", f"{content['knot']} ({content['source']})"),
+        ("grid size", f"{content['grid_size']} (smallest found: {content['smallest_grid_found']})"),
+        ("cut", f"{content['cut']} of {' '.join(content['crossing_free_cuts'])}"),
+        ("turning points", content["turning_points"]),
+        ("cable length", f"{content['length']} grid steps"),
+        ("crossings", f"{content['crossings']}, writhe {content['writhe']}"),
+        ("Alexander", unknown if alexander is None else format_polynomial(tuple(alexander))),
+        ("signature", "known for knots of the catalogue only" if signature is None else signature),
+        ("determinant", unknown if alexander is None else content["determinant"]),
+        ("Gauss code", " ".join(map(str, content["gauss_code"]))),
+        ("PD code", " ".join(str(tuple(crossing)) for crossing in content["pd_code"])),
+        ("DT code", " ".join(map(str, content["dt_code"]))),
         ("staircases", "; ".join(staircases) or "none of 3 crossings or more"),
     ]

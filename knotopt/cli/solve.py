@@ -18,11 +18,13 @@ from knotopt.cli.options import (
     SolverOption,
     ThreadingOption,
     TimeLimitOption,
+    cut_option,
+    refuse,
     solver_limits,
     unless_given,
 )
 from knotopt.cli.printing import print_json, print_written
-from knotopt.cli.progress import progress_bar, track
+from knotopt.cli.progress import logged_bar, track
 from knotopt.cli.solve_flown import (
     FlightOptions,
     MaxCutOption,
@@ -55,20 +57,14 @@ def solve(
     threading: ThreadingOption = None,
     r: OpennessOption = None,
     cut: Annotated[
-        str,
-        typer.Option(
-            metavar="CUT",
-            help="best (of the crossing-free cuts), all (each by itself), "
-            "or one: L+ L- R+ R- B+ B- T+ T-, col3+, row5-.",
-        ),
+        str, cut_option("best (of the crossing-free cuts), all (each by itself)")
     ] = "best",
     solver: SolverOption = DEFAULT,
     every: Annotated[
         bool, typer.Option("--all", help="List all smallest sets, not one of them.")
     ] = False,
     count: Annotated[
-        int | None,
-        unless_given(MOST_SETS, "With --all: how many at most.", min=1),
+        int | None, unless_given(MOST_SETS, "With --all: how many at most.", min=1)
     ] = None,
     diagrams: Annotated[
         int,
@@ -78,19 +74,16 @@ def solve(
         ),
     ] = 1,
     separation: Annotated[
-        float | None,
-        typer.Option(help="Smallest distance of two robots [grid steps].", show_default=False),
+        float | None, typer.Option(help="Smallest distance of two robots [grid steps].")
     ] = None,
     payload: Annotated[
-        float | None,
-        typer.Option(help="Longest span between robots [grid steps].", show_default=False),
+        float | None, typer.Option(help="Longest span between robots [grid steps].")
     ] = None,
     reach: Annotated[
         float | None,
         typer.Option(
             help="Farthest that a helping robot may be from where a region is threaded "
-            "[grid steps].",
-            show_default=False,
+            "[grid steps]."
         ),
     ] = None,
     forbid: Annotated[
@@ -104,9 +97,7 @@ def solve(
     max_robots: Annotated[
         int | None,
         typer.Option(
-            help="At most so many robots; the smallest opening is maximised instead.",
-            metavar="K",
-            show_default=False,
+            help="At most so many robots; the smallest opening is maximised instead.", metavar="K"
         ),
     ] = None,
     verify_physics: Annotated[
@@ -165,13 +156,11 @@ def solve(
     )
     limits = solver_limits(time_limit, gap, threads, seed)
     if count is not None and not every:
-        raise typer.BadParameter("goes with --all", param_hint="--count")
+        refuse("--count", "goes with --all")
     _check_options(cut, diagrams, {"--plot": plot, "--export": export, "--all": every})
     if cut in ("best", "all") and (forbid or force):
-        raise typer.BadParameter(
-            "turning points are numbered along one cable: give --cut L+ or another",
-            param_hint="--forbid, --force",
-        )
+        words = "turning points are numbered along one cable: give --cut L+ or another"
+        refuse("--forbid, --force", words)
     _check_outputs(plot, export)
     flights = FlightOptions(noise, trials, physics_budget, max_cut, out)
     if verify_physics:
@@ -215,22 +204,18 @@ def _check_options(cut: str, diagrams: int, about_one_cut: dict[str, Any]) -> No
     if cut == "all":
         for option, value in about_one_cut.items():
             if value:
-                raise typer.BadParameter(
-                    "is about one cut: give --cut best or a cut's name", param_hint=option
-                )
+                refuse(option, "is about one cut: give --cut best or a cut's name")
     if diagrams > 1 and cut != "best":
-        raise typer.BadParameter("goes with --cut best", param_hint="--diagrams")
+        refuse("--diagrams", "goes with --cut best")
 
 
 def _check_verification(cut: str, others: dict[str, Any]) -> None:
     """Options that do not go with flights are refused."""
     if cut == "all":
-        raise typer.BadParameter(
-            "with --verify-physics, give --cut best or a cut's name", param_hint="--cut"
-        )
+        refuse("--cut", "with --verify-physics, give --cut best or a cut's name")
     for option, value in others.items():
         if value:
-            raise typer.BadParameter("does not go with --verify-physics", param_hint=option)
+            refuse(option, "does not go with --verify-physics")
 
 
 def _check_outputs(plot: Path | None, export: Path | None) -> None:
@@ -247,19 +232,14 @@ def _check_outputs(plot: Path | None, export: Path | None) -> None:
 
 
 def _search(
-    diagram: GridDiagram,
-    asked: Requirements,
-    cut: str,
-    diagrams: int,
-    solver: str,
-    limits: Limits,
+    diagram: GridDiagram, asked: Requirements, cut: str, diagrams: int, solver: str, limits: Limits
 ) -> tuple[CutSearch, DiagramSearch | None]:
     """The best cut, perhaps of several diagrams; progress is shown and logged."""
     from knotopt.cable.cut import Cut, crossing_free_cuts
     from knotopt.supports.search import best_diagram, best_supports
 
     if diagrams > 1:
-        with progress_bar("diagrams", diagrams) as show:
+        with logged_bar("diagrams", diagrams) as show:
             found = best_diagram(
                 diagram,
                 asked,
@@ -271,7 +251,7 @@ def _search(
             )
         return found.best, found
     cuts = (Cut.parse(cut, diagram.size),) if cut != "best" else crossing_free_cuts(diagram)
-    with progress_bar("cuts", len(cuts)) as show:
+    with logged_bar("cuts", len(cuts)) as show:
         search = best_supports(
             diagram,
             asked,

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from knotopt.cli.logs import telling
-from knotopt.cli.options import run_header, unless_given
+from knotopt.cli.options import refuse, run_header, unless_given
 from knotopt.cli.solve_flown_printing import flown_json
 from knotopt.rehearsal.flight_tests import FlightTests
 
@@ -67,10 +67,7 @@ class FlightOptions:
         names = {"seconds": "--physics-budget", "max_cut": "--max-cut"}
         for field in fields(self):
             if getattr(self, field.name) is not None:
-                raise typer.BadParameter(
-                    "goes with --verify-physics",
-                    param_hint=names.get(field.name, f"--{field.name}"),
-                )
+                refuse(names.get(field.name, f"--{field.name}"), "goes with --verify-physics")
 
     def tests(self) -> FlightTests:
         """What sets are put to."""

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from knotopt.cli.options import JsonOption, PlotOption
+from knotopt.cli.options import JsonOption, PlotOption, check_choice, refuse
 from knotopt.cli.printing import print_facts, print_json, print_table, print_written
 
 if TYPE_CHECKING:
@@ -20,7 +20,6 @@ def topology(
         str,
         typer.Argument(
             metavar="KNOT",
-            show_default=False,
             help="As for the other commands; or a .json, .csv or .txt file with a state's matrix, "
             "or a Gauss code, 'U1+ O2+ U3+ O1+ U2+ O3+', or a .txt file with one.",
         ),
@@ -31,7 +30,6 @@ def topology(
             metavar="CUT",
             help="Where a knot's diagram is opened: L+ (by default) L- R+ R- B+ B- T+ T-, or "
             "col3+, row5-.",
-            show_default=False,
         ),
     ] = None,
     goals: Annotated[
@@ -71,15 +69,14 @@ def topology(
     from knotopt.topology.legal import R2Rule
     from knotopt.topology.plan import plan_graph
 
-    for option, value, names in (("--goals", goals, [*GoalSet]), ("--rule", rule, [*R2Rule])):
-        if value not in names:
-            raise typer.BadParameter(f"is one of {', '.join(names)}", param_hint=option)
+    check_choice("--goals", goals, GoalSet)
+    check_choice("--rule", rule, R2Rule)
     if plot is not None:
         from knotopt.plot.figures import check_format
 
         check_format(plot)
         if plans == 0:
-            raise typer.BadParameter("is at least 1 with --plot", param_hint="--plans")
+            refuse("--plans", "is at least 1 with --plot")
     wanted = read_goal(goal, cut, goals)
     graph = plan_graph(wanted.states, read_goal(start).states[0], rule, fewest=shortest)
     listed = list(graph.plans(plans))

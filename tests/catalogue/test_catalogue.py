@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -9,7 +10,7 @@ import pytest
 
 from knotopt.cable.alexander import alexander_polynomial, determinant
 from knotopt.cable.cable import Cable
-from knotopt.catalogue import knotinfo, lookup
+from knotopt.catalogue import knotinfo
 from knotopt.catalogue.knots import shipped_knots
 from knotopt.catalogue.lookup import find_knot
 from knotopt.catalogue.table1_grids import table1_grids
@@ -33,8 +34,7 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 @pytest.fixture
 def no_extra(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(knotinfo, "is_installed", lambda: False)
-    monkeypatch.setattr(lookup, "is_installed", lambda: False)
+    monkeypatch.setitem(sys.modules, "database_knotinfo", None)
 
 
 def test_knotinfo_is_parsed_once_and_then_cached(

@@ -58,6 +58,15 @@ def test_every_knot_of_an_atlas_is_logged(cli: Cli, tmp_path: Path) -> None:
     assert "2 of 2 knots are measured already" in text
 
 
+def test_a_log_says_how_it_ended(cli: Cli, tmp_path: Path) -> None:
+    log = tmp_path / "run.log"
+    assert cli("solve", "3", "--cut", "L+", "--reach", 0.1, "--log", log)[0] == 1
+    assert cli("solve", "3", "--cut", "nowhere", "--log", log)[0] == 1
+    ends = [line.split(": ", 1)[1] for line in log.read_text().splitlines()[-3::2]]
+    assert ends[0].startswith("exit status 1 after")
+    assert ends[1].startswith("ended by CutError: no cut is named 'nowhere'")
+
+
 @pytest.mark.parametrize(
     ("place", "words"),
     [("no/run.log", "there is no folder"), ("folder", "Is a directory")],
