@@ -61,15 +61,8 @@ class MujocoSimulation:
 
     Parameters
     ----------
-    start : float array, shape (R, 3)
-        Positions of the robots [m]; the cable hangs between them.
-    lengths : float array, shape (R - 1,)
-        Of cable between consecutive robots [m].
-    step : float
-        Grid step [m].
-    speed : float
-        Largest speed of a robot [m/s].
-    disturbance : Disturbance
+    start, lengths, step, speed, disturbance
+        As for `knotopt.sim.simulators.Simulator.start`.
     material : Material
     dt : float
         Time step of the physics, rounded to a part of the time between commands [s].

@@ -10,7 +10,7 @@ from functools import cached_property
 from scipy.stats import binomtest
 
 from knotopt.flight.examine import Examination, examine_flight
-from knotopt.flight.plan import FlightPlan
+from knotopt.flight.plan import FlightPlan, MotionPlan
 from knotopt.flight.record import Disturbance, FlightRecord
 from knotopt.sim.judge import Outcome, Verdict, judge
 from knotopt.sim.simulators import MUJOCO, Simulator
@@ -97,7 +97,7 @@ def fly_trials(
 
 
 def simulate(
-    plan: FlightPlan, disturbance: Disturbance | None = None, simulator: Simulator = MUJOCO
+    plan: MotionPlan, disturbance: Disturbance | None = None, simulator: Simulator = MUJOCO
 ) -> FlightRecord:
     """What happens when a plan is flown, undisturbed unless a disturbance is given.
 
