@@ -21,7 +21,7 @@ from knotopt.supports.selection import GivenSupports
 logger = logging.getLogger(__name__)
 
 Supports = tuple[int, ...]
-MEASURED = (
+MEASURED = [
     "outcome",
     "verdict",
     "flight_seconds",
@@ -29,7 +29,7 @@ MEASURED = (
     "strand_distance",
     "tension",
     "cable_length",
-)
+]
 """Columns that are empty where there is no flight."""
 
 
@@ -116,8 +116,7 @@ def fly_set(
 def _cells(flown: Flight | str) -> dict[str, Any]:
     """Columns of a row that say what came of a set."""
     if isinstance(flown, str):
-        measured = dict.fromkeys(MEASURED)
-        return {"planned": False, "tied": False, "why": flown, **measured}
+        return {"planned": False, "tied": False, "why": flown, **dict.fromkeys(MEASURED)}
     plan, record, examination = flown.plan, flown.record, flown.examination
     return {
         "planned": True,

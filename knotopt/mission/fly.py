@@ -14,7 +14,7 @@ from knotopt.mission.alternatives import plan_first, plan_set, rehearse_first
 from knotopt.mission.content import flight_content
 from knotopt.mission.mission import Mission, seed_name
 from knotopt.sim.simulators import MUJOCO, Simulator
-from knotopt.sim.trials import fly_trial, wilson_interval
+from knotopt.sim.trials import fly_trial
 from knotopt.supports.selection import GivenSupports
 from knotopt.supports.support_set import SupportSet
 
@@ -61,9 +61,7 @@ def fly_disturbed(
         contents.append(flight_content(seed_name(flight), flight))
         if failed is None and not flight.is_tied:
             failed = flight
-    tied = sum(each["outcome"] == "tied" for each in contents)
-    interval = wilson_interval(tied, len(contents)) if contents else None
-    return replace(mission, failed=failed, disturbed=tuple(contents), interval=interval)
+    return replace(mission, failed=failed, disturbed=tuple(contents))
 
 
 def _examined(plan: FlightPlan, steady: float | None = None) -> Mission:

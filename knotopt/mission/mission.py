@@ -10,7 +10,7 @@ from knotopt.export.recheck import FitReport
 from knotopt.flight.examine import CrossingRow, Examination
 from knotopt.flight.plan import FlightPlan
 from knotopt.rehearsal.flown_set import FlownSet
-from knotopt.sim.trials import Flight
+from knotopt.sim.trials import Flight, wilson_interval
 from knotopt.verify.flight_limits import Worst
 
 
@@ -35,8 +35,6 @@ class Mission:
         The first disturbed flight that did not tie the knot.
     disturbed : tuple of mapping
         What `flight_content` says of each disturbed flight; records of many would fill the memory.
-    interval : tuple of float or None
-        Wilson's 95 % interval for the share of disturbed flights that tie the knot.
     """
 
     plan: FlightPlan
@@ -47,7 +45,6 @@ class Mission:
     flown: FlownSet | None = None
     failed: Flight | None = None
     disturbed: tuple[Mapping[str, Any], ...] = ()
-    interval: tuple[float, float] | None = None
 
     @property
     def flights(self) -> tuple[tuple[str, Flight], ...]:
@@ -72,6 +69,11 @@ class Mission:
     def tied(self) -> int:
         """How many disturbed flights tie the knot."""
         return sum(each["outcome"] == "tied" for each in self.disturbed)
+
+    @property
+    def interval(self) -> tuple[float, float] | None:
+        """Wilson's 95 % interval for the share of disturbed flights that tie the knot."""
+        return wilson_interval(self.tied, len(self.disturbed)) if self.disturbed else None
 
     @property
     def success(self) -> str:

@@ -2,29 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
 
 from knotopt.arrays import FloatArray
 from knotopt.errors import require_extra
 from knotopt.flight.record import Disturbance
 from knotopt.sim.mujoco_simulation import MujocoSimulation
 from knotopt.sim.simulation import Simulation
-
-
-class Start(Protocol):
-    """Begins a simulation, such as the class of one."""
-
-    def __call__(
-        self,
-        start: FloatArray,
-        lengths: FloatArray,
-        *,
-        step: float,
-        speed: float,
-        disturbance: Disturbance,
-    ) -> Simulation:
-        """As `Simulator.start`."""
 
 
 @dataclass(frozen=True)
@@ -37,13 +22,13 @@ class Simulator:
     package, extra : str
         What has to be installed for it, and the extra of knotopt that installs that.
     begin : callable
-        Begins a simulation; imports the package no earlier.
+        Begins a simulation, with the parameters of `start`; imports the package no earlier.
     """
 
     name: str
     package: str
     extra: str
-    begin: Start
+    begin: Callable[..., Simulation]
 
     def require(self) -> None:
         """Refuse to go on where flights cannot be simulated; nothing is computed in vain then.
