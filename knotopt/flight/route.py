@@ -15,7 +15,7 @@ from scipy.sparse import diags_array, eye_array
 from scipy.sparse.linalg import spsolve
 
 from knotopt.arrays import FloatArray
-from knotopt.flight.router import Gate, RouteShape
+from knotopt.flight.gates import Gate, RouteShape
 
 SAMPLE = 0.04  # between points of a route while it is smoothed [grid steps]
 SMOOTHING = 0.3  # length over which corners are rounded [grid steps]

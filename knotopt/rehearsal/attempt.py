@@ -11,12 +11,13 @@ from formulations.schedule import Schedule, greedy_schedule
 from knotopt.arrays import FloatArray
 from knotopt.errors import RequirementError
 from knotopt.flight.formation import NODES
+from knotopt.flight.gates import RouteShape
 from knotopt.flight.layout import Word
 from knotopt.flight.leader_crossings import happened_word, leader_crossings
 from knotopt.flight.plan import MotionPlan
-from knotopt.flight.planner import INTERVAL, FlightPlanner, kept, sample_times
+from knotopt.flight.planner import INTERVAL, FlightPlanner, sample_times, with_margin
 from knotopt.flight.route import HeightShape, SpanRoute, SpanShape
-from knotopt.flight.router import Router, RouteShape
+from knotopt.flight.router import Router
 from knotopt.rehearsal.observer import Observer
 from knotopt.sim.simulation import Checkpoint, Simulation
 
@@ -233,7 +234,7 @@ class RehearsedFlight:
             gate = route.passages[gates - 1].gate
             end = (formation.route.passed[before + gates - 1] + gate.run) * step
         nodes = np.linspace(self.along, end, max(int((end - self.along) / NODES), 8))
-        timing = greedy_schedule(nodes, *formation.derivatives(nodes), *kept(planner.limits))
+        timing = greedy_schedule(nodes, *formation.derivatives(nodes), *with_margin(planner.limits))
         count = int(np.ceil(timing.duration / INTERVAL)) + 1
         positions = formation.positions(timing.at(sample_times(count)))
         finished = self.simulation.follow(positions, INTERVAL)

@@ -11,10 +11,11 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from knotopt.arrays import FloatArray
+from knotopt.flight.gates import RouteShape
 from knotopt.flight.laid_cable import hanging_cable
 from knotopt.flight.layout import Letter
 from knotopt.flight.route import HeightShape, Passage, SpanRoute, build_route
-from knotopt.flight.router import Router, RouteShape, Way
+from knotopt.flight.router import Router, Way
 
 SHAPE = RouteShape()
 
