@@ -190,7 +190,7 @@ class RehearsedFlight:
         planner = self.planner
         observer = Observer(planner, self.simulation)
         laid = observer.laid(span - 1)
-        flown = _flown(planner.spans[span - 1], done) if done else None
+        flown = planner.spans[span - 1].up_to(done) if done else None
         start = planner.places[span - 1] if flown is None else flown.points[-1]
         tether = observer.tether(span)
         walls = [[planner.layout.tail, tether]] if tether is not None else []
@@ -262,12 +262,3 @@ class RehearsedFlight:
         near = sum(not each.is_own and abs(each.gap) < tight for each in crossings)
         near += max(sum(not each.is_curl for each in crossings) - len(wanted), 0)
         return wrong, near
-
-
-def _flown(route: SpanRoute, done: int) -> SpanRoute:
-    """A route up to the end of the run behind gate `done` (from 1)."""
-    gate = route.passages[done - 1].gate
-    at = next(
-        k for k in range(len(route.points) - 1, -1, -1) if np.allclose(route.points[k], gate.place)
-    )
-    return SpanRoute(np.concatenate((route.points[: at + 1], [gate.exit])), route.passages[:done])
