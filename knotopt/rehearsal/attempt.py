@@ -41,7 +41,10 @@ STUCK = 10  # letters that being stuck counts as
 
 @dataclass(frozen=True, eq=False)
 class _Leg:
-    """One way on to the next crossing, flown: what was planned, and where that leads."""
+    """One way on to the next crossing, flown: the planner with it, and where that leads.
+
+    `wrong` and `near` count letters of the word, see `RehearsedFlight._judged`.
+    """
 
     wrong: int
     near: int
@@ -58,7 +61,7 @@ class _Leg:
 
 
 class RehearsedFlight:
-    """A flight under way, from its start.
+    """A flight under way: the only thing here that changes, as its simulation does.
 
     Parameters
     ----------
@@ -81,6 +84,8 @@ class RehearsedFlight:
         Crossings that no way tried made happen.
     ways : int
         Ways from crossing to crossing that were flown.
+    stuck : bool
+        Whether a taut cable held robots back.
     """
 
     def __init__(
