@@ -174,5 +174,7 @@ def with_supports(
     motion: MotionPlan, name: str, cable: Cable, supports: tuple[int, ...], chosen_by: str
 ) -> FlightPlan:
     """A motion as the flight plan of a knot, with the attributes of `FlightPlan`."""
-    moved = {each.name: getattr(motion, each.name) for each in fields(MotionPlan)}
-    return FlightPlan(**moved, name=name, cable=cable, supports=supports, chosen_by=chosen_by)
+    motion_values = {each.name: getattr(motion, each.name) for each in fields(MotionPlan)}
+    return FlightPlan(
+        **motion_values, name=name, cable=cable, supports=supports, chosen_by=chosen_by
+    )

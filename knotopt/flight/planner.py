@@ -12,14 +12,15 @@ from knotopt.arrays import FloatArray
 from knotopt.cable.cable import Cable
 from knotopt.errors import RequirementError
 from knotopt.flight.formation import Formation
+from knotopt.flight.gates import Crossed, RouteShape
 from knotopt.flight.grid_layout import layout_of_supports
-from knotopt.flight.laid_cable import Laid, hanging_cable
+from knotopt.flight.laid_cable import LaidCable, hanging_cable
 from knotopt.flight.layout import Layout, Word
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan, MotionPlan, PlannedCrossing, with_supports
 from knotopt.flight.request import SCHEDULES
 from knotopt.flight.route import SAMPLE, Passage, SpanRoute, SpanShape, build_route
-from knotopt.flight.router import Crossed, Router, RouteShape, Way
+from knotopt.flight.router import Router, Way
 from knotopt.path.world import World
 
 INTERVAL = 0.05  # between samples of a plan [s]
@@ -86,10 +87,10 @@ class FlightPlanner:
         """Number of robots."""
         return self.layout.robots
 
-    def modelled_cable(self, spans: int) -> Laid:
+    def modelled_cable(self, spans: int) -> LaidCable:
         """The first spans, straight in plan and hanging as catenaries."""
         ends = np.column_stack((self.places, np.zeros(self.robots)))
-        return Laid(
+        return LaidCable(
             [hanging_cable(ends[i], ends[i + 1], self.lengths[i], 40) for i in range(spans)]
         )
 
@@ -101,7 +102,7 @@ class FlightPlanner:
                 found.setdefault(gate.letter.older, []).append((gate.letter.rank, gate.along))
         return found
 
-    def find_route(self, span: int, laid: Laid, shape: SpanShape) -> SpanRoute | None:
+    def find_route(self, span: int, laid: LaidCable, shape: SpanShape) -> SpanRoute | None:
         """A route over span `span` (1-based), past the spans before it, or None.
 
         Raises
@@ -130,7 +131,7 @@ class FlightPlanner:
         needed = CLEAR * self.limits.separation / self.world.step
         return replace(shape, clear=max(shape.clear, needed))
 
-    def with_heights(self, way: Way, laid: Laid, shape: SpanShape) -> SpanRoute:
+    def with_heights(self, way: Way, laid: LaidCable, shape: SpanShape) -> SpanRoute:
         """A way with a height in every gate.
 
         Raises
@@ -274,11 +275,11 @@ class FlightPlanner:
         if isinstance(schedule, Schedule):
             found = schedule
         elif schedule == "optimised":
-            found = fastest_schedule(nodes, *derivatives, *kept(limits))
+            found = fastest_schedule(nodes, *derivatives, *with_margin(limits))
             if not found.is_optimal:
                 notes += (f"the schedule is feasible, not proven optimal: {found.raw_status}",)
         else:
-            found = steady_schedule(nodes, *derivatives, *kept(limits))
+            found = steady_schedule(nodes, *derivatives, *with_margin(limits))
         duration = limits.hover_before + found.duration + limits.hover_after
         times = sample_times(int(np.ceil(duration / INTERVAL)) + 1)
         passed = iter(formation.route.passed)
@@ -327,7 +328,7 @@ def sample_times(count: int) -> FloatArray:
     return times
 
 
-def kept(limits: FlightLimits) -> tuple[float, float]:
+def with_margin(limits: FlightLimits) -> tuple[float, float]:
     """Speed and acceleration that leave something for what happens between nodes."""
     return MARGIN * limits.speed, MARGIN * limits.acceleration
 

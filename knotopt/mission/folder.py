@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from fnmatch import fnmatch
 from pathlib import Path
 
-from knotopt.flight.store import FORMAT, plan_to_json
+from knotopt.flight.plan_file import FORMAT, plan_to_json
 from knotopt.mission.content import mission_content
 from knotopt.mission.mission import Mission
 from knotopt.viewer.page import flight_page

@@ -12,12 +12,13 @@ from formulations.schedule import Schedule, greedy_schedule
 from knotopt.arrays import FloatArray
 from knotopt.errors import RequirementError
 from knotopt.flight.formation import NODES
+from knotopt.flight.gates import RouteShape
 from knotopt.flight.layout import Word
 from knotopt.flight.leader_crossings import happened_word, leader_crossings
 from knotopt.flight.plan import MotionPlan
-from knotopt.flight.planner import INTERVAL, FlightPlanner, kept, sample_times
+from knotopt.flight.planner import INTERVAL, FlightPlanner, sample_times, with_margin
 from knotopt.flight.route import HeightShape, SpanRoute, SpanShape
-from knotopt.flight.router import Router, RouteShape
+from knotopt.flight.router import Router
 from knotopt.rehearsal.observer import Observer
 from knotopt.sim.simulation import Checkpoint
 from knotopt.sim.simulators import MUJOCO, Simulator
@@ -44,7 +45,10 @@ STUCK = 10  # letters that being stuck counts as
 
 @dataclass(frozen=True, eq=False)
 class _Leg:
-    """One way on to the next crossing, flown: what was planned, and where that leads."""
+    """One way on to the next crossing, flown: the planner with it, and where that leads.
+
+    `wrong` and `near` count letters of the word, see `RehearsedFlight._judged`.
+    """
 
     wrong: int
     near: int
@@ -61,7 +65,7 @@ class _Leg:
 
 
 class RehearsedFlight:
-    """A flight under way, from its start.
+    """A flight under way: the only thing here that changes, as its simulation does.
 
     Parameters
     ----------
@@ -83,6 +87,8 @@ class RehearsedFlight:
         Crossings that no way tried made happen.
     ways : int
         Ways from crossing to crossing that were flown.
+    stuck : bool
+        Whether a taut cable held robots back.
     """
 
     def __init__(
@@ -192,7 +198,7 @@ class RehearsedFlight:
         planner = self.planner
         observer = Observer(planner, self.simulation)
         laid = observer.laid(span - 1)
-        flown = _flown(planner.spans[span - 1], done) if done else None
+        flown = planner.spans[span - 1].up_to(done) if done else None
         start = planner.places[span - 1] if flown is None else flown.points[-1]
         tether = observer.tether(span)
         walls = [[planner.layout.tail, tether]] if tether is not None else []
@@ -236,7 +242,7 @@ class RehearsedFlight:
             gate = route.passages[gates - 1].gate
             end = (formation.route.passed[before + gates - 1] + gate.run) * step
         nodes = np.linspace(self.along, end, max(int((end - self.along) / NODES), 8))
-        timing = greedy_schedule(nodes, *formation.derivatives(nodes), *kept(planner.limits))
+        timing = greedy_schedule(nodes, *formation.derivatives(nodes), *with_margin(planner.limits))
         count = int(np.ceil(timing.duration / INTERVAL)) + 1
         positions = formation.positions(timing.at(sample_times(count)))
         finished = self.simulation.follow(positions, INTERVAL)
@@ -266,12 +272,3 @@ class RehearsedFlight:
         near = sum(not each.is_own and abs(each.gap) < tight for each in crossings)
         near += max(sum(not each.is_curl for each in crossings) - len(wanted), 0)
         return wrong, near
-
-
-def _flown(route: SpanRoute, done: int) -> SpanRoute:
-    """A route up to the end of the run behind gate `done` (from 1)."""
-    gate = route.passages[done - 1].gate
-    at = next(
-        k for k in range(len(route.points) - 1, -1, -1) if np.allclose(route.points[k], gate.place)
-    )
-    return SpanRoute(np.concatenate((route.points[: at + 1], [gate.exit])), route.passages[:done])

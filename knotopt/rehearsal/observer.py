@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 
 from knotopt.arrays import FloatArray
-from knotopt.flight.laid_cable import Laid
+from knotopt.flight.laid_cable import LaidCable
 from knotopt.flight.layout import Letter
 from knotopt.flight.planner import FlightPlanner
 from knotopt.flight.route import SpanRoute
@@ -33,7 +33,7 @@ class Observer:
     planner: FlightPlanner
     simulation: Simulation
 
-    def laid(self, spans: int) -> Laid:
+    def laid(self, spans: int) -> LaidCable:
         """The first spans as they lie; where a robot is not in its place yet, as modelled."""
         planner, simulation = self.planner, self.simulation
         found = list(planner.modelled_cable(spans).spans)
@@ -41,7 +41,7 @@ class Observer:
         arrived = np.linalg.norm(robots - planner.places, axis=1) < ARRIVED
         for i in np.flatnonzero(arrived[:spans] & arrived[1 : spans + 1]).tolist():
             found[i] = self._in_grid(i)
-        return Laid(found)
+        return LaidCable(found)
 
     def tether(self, span: int) -> FloatArray | None:
         """The cable from robot `span` to the leader in plan, but for its end; None if short."""
@@ -52,7 +52,7 @@ class Observer:
         return points[: far[-1] + 1]
 
     def crossed(
-        self, span: int, laid: Laid, done: int, apart: float
+        self, span: int, laid: LaidCable, done: int, apart: float
     ) -> dict[int, list[tuple[float | None, float]]]:
         """Crossings on the laid spans where they are now: rank, arc length.
 
@@ -60,7 +60,7 @@ class Observer:
         ----------
         span : int
             That is being flown.
-        laid : Laid
+        laid : LaidCable
         done : int
             Letters of its word that are behind the leader.
         apart : float

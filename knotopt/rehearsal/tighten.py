@@ -19,7 +19,7 @@ from knotopt.arrays import FloatArray
 from knotopt.cable.cable import Cable
 from knotopt.errors import RequirementError
 from knotopt.flight.plan import FlightPlan
-from knotopt.flight.planner import INTERVAL, kept, sample_times
+from knotopt.flight.planner import INTERVAL, sample_times, with_margin
 from knotopt.path.world import World
 from knotopt.rehearsal.flown_set import FlownSet
 from knotopt.rehearsal.rehearse import TRIALS
@@ -160,7 +160,7 @@ def _tightened(plan: FlightPlan, ways: FloatArray) -> FlightPlan:
     places = middle + np.minimum(1.0, TAUT / most)[:, None, None] * (places - middle)
     smooth = gaussian_filter1d(places, SMOOTH / FRAME_TIME, axis=0, mode="nearest")
     curve = CubicSpline(FRAME_TIME * np.arange(len(smooth)), smooth, bc_type="clamped")
-    speed, acceleration = kept(plan.limits)
+    speed, acceleration = with_margin(plan.limits)
     at = curve.x
     slower = max(
         1.0,

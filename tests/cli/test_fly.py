@@ -14,8 +14,8 @@ import pytest
 
 from knotopt.export.waypoints import read_waypoints
 from knotopt.flight.plan import FlightPlan
+from knotopt.flight.plan_file import read_plan
 from knotopt.flight.planner import FlightPlanner, plan_flight
-from knotopt.flight.store import read_plan
 from knotopt.mission import alternatives
 from tests.conftest import Cli
 

@@ -15,9 +15,9 @@ from knotopt.errors import MissingExtraError, OutputError
 from knotopt.export.crazyswarm import export_files
 from knotopt.files import check_folder, write_folder
 from knotopt.flight.examine import examine_flight, examine_plan
+from knotopt.flight.plan_file import read_plan
 from knotopt.flight.planner import plan_flight
 from knotopt.flight.record import Disturbance
-from knotopt.flight.store import read_plan
 from knotopt.mission.content import flight_content, mission_content
 from knotopt.mission.folder import NAMES, flight_files, flight_pictures, why_kept
 from knotopt.mission.mission import Mission
