@@ -64,7 +64,7 @@ def atlas(
     ] = False,
     r: OpennessOption = None,
     seed: Annotated[
-        int, typer.Option(min=0, max=2**31 - 1, metavar="N", help="Of the solver.")
+        int, typer.Option(min=0, max=2**31 - 1, metavar="N", help="Seed of the solver.")
     ] = Settings.seed,
     check: Annotated[
         int,

@@ -51,6 +51,15 @@ def cut_option(words: str) -> Any:
     return typer.Option(metavar="CUT", help=help)
 
 
+def _check_picture(path: Path | None) -> Path | None:
+    """A picture's name of a wrong format is refused before anything is computed."""
+    if path is not None:
+        from knotopt.plot.figures import check_format
+
+        check_format(path)
+    return path
+
+
 KnotArgument = Annotated[
     str,
     typer.Argument(
@@ -70,7 +79,13 @@ CatalogueOption = Annotated[
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
 PlotOption = Annotated[
-    Path | None, typer.Option("--plot", metavar="FILE", help="Draw a picture: .png, .pdf or .svg.")
+    Path | None,
+    typer.Option(
+        "--plot",
+        metavar="FILE",
+        callback=_check_picture,
+        help="Draw a picture: .png, .pdf or .svg.",
+    ),
 ]
 LayeredOption = Annotated[
     bool,

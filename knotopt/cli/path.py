@@ -106,7 +106,7 @@ def path(
     from knotopt.supports.selection import choose_supports
 
     check_choice("--method", method, METHODS)
-    _check_outputs(plot, out, method)
+    _check_out(out, method)
     if supports != "milp" and (r is not None or formulation != Requirements.formulation):
         refuse("--formulation" if r is None else "--r", "goes with --supports milp")
     asked = PathRequirements(clearance, opening, slope=slope, bending=bending)
@@ -153,14 +153,10 @@ def _world(step: float | None, room: dict[str, float], gap: float | None) -> Wor
     return None if step is None else World(step, **room)
 
 
-def _check_outputs(plot: Path | None, out: Path | None, method: str) -> None:
-    """Wrong file names are refused before anything is solved."""
+def _check_out(out: Path | None, method: str) -> None:
+    """A wrong file name is refused before anything is solved."""
     from knotopt.errors import OutputError
 
-    if plot is not None:
-        from knotopt.plot.figures import check_format
-
-        check_format(plot)
     if out is not None and out.suffix.lower() != ".csv":
         raise OutputError(f"{out}: curves are written as .csv")
     if out is not None and method == "both":

@@ -161,7 +161,7 @@ def solve(
     if cut in ("best", "all") and (forbid or force):
         words = "turning points are numbered along one cable: give --cut L+ or another"
         refuse("--forbid, --force", words)
-    _check_outputs(plot, export)
+    _check_export(export)
     flights = FlightOptions(noise, trials, physics_budget, max_cut, out)
     if verify_physics:
         others = {"--all": every, "--diagrams": diagrams > 1, "--max-robots": max_robots}
@@ -218,15 +218,11 @@ def _check_verification(cut: str, others: dict[str, Any]) -> None:
             refuse(option, "does not go with --verify-physics")
 
 
-def _check_outputs(plot: Path | None, export: Path | None) -> None:
-    """Wrong file names are refused before anything is solved."""
+def _check_export(export: Path | None) -> None:
+    """A wrong file name is refused before anything is solved."""
     from formulations.export import FORMATS
     from knotopt.errors import OutputError
 
-    if plot is not None:
-        from knotopt.plot.figures import check_format
-
-        check_format(plot)
     if export is not None and export.suffix.lower() not in FORMATS:
         raise OutputError(f"{export}: programs are written as {', '.join(FORMATS)}")
 

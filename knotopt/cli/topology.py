@@ -71,12 +71,8 @@ def topology(
 
     check_choice("--goals", goals, GoalSet)
     check_choice("--rule", rule, R2Rule)
-    if plot is not None:
-        from knotopt.plot.figures import check_format
-
-        check_format(plot)
-        if plans == 0:
-            refuse("--plans", "is at least 1 with --plot")
+    if plot is not None and plans == 0:
+        refuse("--plans", "is at least 1 with --plot")
     wanted = read_goal(goal, cut, goals)
     graph = plan_graph(wanted.states, read_goal(start).states[0], rule, fewest=shortest)
     listed = list(graph.plans(plans))

@@ -6,6 +6,7 @@ skipped, and the others are only asked for a smaller set.
 
 from __future__ import annotations
 
+import logging
 import random
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -24,6 +25,8 @@ from knotopt.diagram.moves import (
 from knotopt.errors import MoveError, RequirementError
 from knotopt.supports.minimal import MinimalSupports, canonical_supports, minimal_supports
 from knotopt.supports.requirements import Requirements
+
+logger = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True)
@@ -186,6 +189,7 @@ def best_supports(
             incumbent = result.robots
         if best is None or is_better(result, best):
             best = result
+        logger.debug("cut %s: %s robots, bound %s", cut, outcomes[-1].robots, outcomes[-1].bound)
         if progress is not None:
             progress(len(outcomes))
         interrupted = result.solution.interrupted

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import importlib
 import importlib.metadata
 import json
 import os
@@ -13,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from formulations import probe
+from knotopt.cli.app import COMMANDS
 from knotopt.cli.printing import print_table
 from knotopt.tables.table1 import NOTE
 from tests.conftest import Cli
@@ -40,7 +42,8 @@ def test_help_imports_nothing_heavy() -> None:
         "from knotopt.cli.app import main\n"
         "try: main()\n"
         "except SystemExit: pass\n"
-        f"print([name for name in {HEAVY} if name in sys.modules], file=sys.stderr)"
+        f"print([name for name in {HEAVY} if name in sys.modules], file=sys.stderr)\n"
+        "assert not {'knotopt.cli.solve', 'knotopt.cli.lcf'} & sys.modules.keys()"
     )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stderr.strip() == "[]"
@@ -237,6 +240,13 @@ def test_usage_errors(cli: Cli) -> None:
     for arguments in (("lcf",), ("nonsense",), ("knots", "--crossings", "many")):
         status, _, err = cli(*arguments)
         assert status == 2 and "Usage" in err
+    assert "Did you mean 'solve'" in cli("slove")[2]
+
+
+def test_every_command_is_where_the_list_says() -> None:
+    for name, (module, words) in COMMANDS.items():
+        command = getattr(importlib.import_module(f"knotopt.cli.{module}"), name)
+        assert command.__name__ == name and words.endswith(".") and len(words) < 60
 
 
 def test_pictures_without_matplotlib(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
