@@ -17,13 +17,13 @@ from knotopt.catalogue.knots import shipped_knots
 from knotopt.catalogue.lookup import find_knot
 from knotopt.catalogue.table1_grids import table1_grids
 from knotopt.errors import RequirementError
-from knotopt.flight.examine import examine_flight, examine_plan
-from knotopt.flight.limits import ROOM
+from knotopt.flight.examine import examine_plan
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.planner import plan_flight
 from knotopt.flight.record import Disturbance
+from knotopt.flight.request import FlightRequest
 from knotopt.mission.alternatives import PASSED, rehearse_first
-from knotopt.rehearsal.rehearse import Rehearsal
+from knotopt.rehearsal.flown_set import FlownSet
 from knotopt.sim.trials import fly_trial, fly_trials
 from knotopt.supports.by_size import optimal_sets
 from knotopt.supports.minimal import MinimalSupports
@@ -118,17 +118,17 @@ def measure(case: Case) -> Result:
     return _measured(case["row"], tuple(sets))
 
 
-def rehearse(name: str, sets: Iterable[SupportSet]) -> Rehearsal:
+def rehearse(name: str, sets: Iterable[SupportSet]) -> FlownSet:
     """As `fly --sim` rehearses them, with fewer attempts."""
-    return rehearse_first(name, sets, ("file", ROOM, None, "optimised"), attempts=ATTEMPTS)
+    return rehearse_first(sets, FlightRequest(name, "file"), attempts=ATTEMPTS)
 
 
 def _measured(name: str, sets: tuple[SupportSet, ...]) -> Result:
     started = time.perf_counter()
     try:
         if sets[0].supports:
-            rehearsal = rehearse(name, sets)
-            plan, rehearsals = rehearsal.plan, rehearsal.rehearsals
+            flown = rehearse(name, sets)
+            plan, rehearsals = flown.plan, flown.rehearsals
         else:
             plan, rehearsals = plan_flight(name, sets[0].cable, (), "file"), 0
         trial = fly_trial(plan)
@@ -139,7 +139,6 @@ def _measured(name: str, sets: tuple[SupportSet, ...]) -> Result:
     planned = time.perf_counter() - started
     flights = fly_trials(plan, [Disturbance(noise=NOISE, seed=seed) for seed in SEEDS])
     lost = next((each for each in (trial, *flights) if not each.is_tied), None)
-    amiss = examine_flight(plan, lost.record).amiss if lost else ()
     return {
         **about,
         "planned": True,
@@ -147,7 +146,7 @@ def _measured(name: str, sets: tuple[SupportSet, ...]) -> Result:
         "tied": trial.is_tied,
         "disturbed": [str(each.verdict) for each in flights],
         "tied_disturbed": sum(each.is_tied for each in flights),
-        "first_amiss": amiss[0].sentence if amiss else "",
+        "first_amiss": lost.amiss if lost else "",
         "schedule": plan.schedule,
         "flight_seconds": round(plan.duration, 2),
         "rehearsals": rehearsals,

@@ -28,28 +28,28 @@ def measure(case: Case) -> Result:
     chosen = supports_of(case)
     about = {"cut": str(chosen.cable.cut), "robots": chosen.robots}
     try:
-        rehearsal = rehearse(case["row"], (chosen,))
-        tight = tighten_flight(rehearsal, APART)
+        loose = rehearse(case["row"], (chosen,))
+        tight = tighten_flight(loose, APART)
     except RequirementError as error:
         return {**about, "planned": False, "why": str(error)}
     plan = tight.plan
     disturbances = [Disturbance(noise=NOISE, seed=seed) for seed in SEEDS]
-    laid, flights = (fly_trials(each, disturbances) for each in (rehearsal.plan, plan))
+    laid, flights = (fly_trials(each, disturbances) for each in (loose.plan, plan))
     report = examine_plan(plan).limits
     return {
         **about,
         "planned": True,
-        "tied_before": rehearsal.is_tied,
+        "tied_before": loose.is_tied,
         "tightening": round(plan.tightening, 2),
         "why": plan.notes[-1] if plan.notes else "",
         "ends_apart": [round(each, 3) for each in plan.ends_apart],
         "supports_within": [round(each, 3) for each in plan.supports_within],
-        "undisturbed": str(tight.verdict),
+        "undisturbed": str(tight.undisturbed.verdict),
         "disturbed": [str(each.verdict) for each in flights],
         "tied_laid": sum(each.is_tied for each in laid),
         "tied_disturbed": sum(each.is_tied for each in flights),
-        "smallest_distance": round(tight.record.smallest_distance, 4),
-        "largest_tension": round(tight.record.largest_tension, 3),
+        "smallest_distance": round(tight.undisturbed.record.smallest_distance, 4),
+        "largest_tension": round(tight.undisturbed.record.largest_tension, 3),
         "separation": round(report.separation.value, 3),
         "broken": list(report.broken),
     }

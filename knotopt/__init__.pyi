@@ -24,6 +24,7 @@ from .flight.leader_plan import flown_plan as flown_plan
 from .flight.limits import FlightLimits as FlightLimits
 from .flight.plan import FlightPlan as FlightPlan
 from .flight.planner import plan_flight as plan_flight
+from .flight.request import FlightRequest as FlightRequest
 from .path.curve import Curve as Curve
 from .path.optimise import optimise_path as optimise_path
 from .path.relaxation import Relaxation as Relaxation
@@ -34,7 +35,7 @@ from .path.result import PathResult as PathResult
 from .path.taut import taut_length as taut_length
 from .path.taut import taut_string as taut_string
 from .path.world import World as World
-from .rehearsal.rehearse import Rehearsal as Rehearsal
+from .rehearsal.flown_set import FlownSet as FlownSet
 from .rehearsal.rehearse import rehearse_flight as rehearse_flight
 from .rehearsal.tighten import tighten_flight as tighten_flight
 from .supports.certificate import prove as prove

@@ -14,6 +14,7 @@ from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import RequirementError
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan
+from knotopt.flight.request import FLOWN, FlightRequest
 from knotopt.mission.alternatives import plan_first, rehearse_first
 from knotopt.path.world import World
 from knotopt.supports.minimal import MinimalSupports, minimal_supports
@@ -21,9 +22,6 @@ from knotopt.supports.requirements import Requirements
 from knotopt.supports.search import best_supports
 from knotopt.supports.selection import equally_small
 from knotopt.supports.support_set import SupportSet
-
-FLOWN = Requirements("span", 0.25)
-"""What a smallest set is asked for if it is to be flown, unless something else is."""
 
 
 def solve(
@@ -133,12 +131,12 @@ def plan(
     else:
         sets = equally_small(named.diagram, supports, cut, requirements or FLOWN)
         how = Path(supports).name
-    asked = (how, world, limits, schedule)
+    request = FlightRequest(named.name, how, world, limits or FlightLimits(), schedule)
     if physics:
-        return rehearse_first(named.name, sets, asked, tighten).plan
+        return rehearse_first(sets, request, tighten).plan
     if tighten is not None:
         raise RequirementError("a knot is pulled tight in simulation: it takes physics=True")
-    return plan_first(named.name, sets, asked)
+    return plan_first(sets, request)
 
 
 def _named(knot: str | GridDiagram) -> NamedDiagram:

@@ -11,6 +11,9 @@ from knotopt.diagram.families import torus_knot
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan, PlannedCrossing
 from knotopt.flight.record import Disturbance, FlightRecord
+from knotopt.rehearsal.flown_set import FlownSet
+from knotopt.sim.judge import Verdict
+from knotopt.sim.trials import Flight
 
 EDGES = 12  # of the recorded cable between two robots
 
@@ -64,3 +67,10 @@ def small_record(plan: FlightPlan, seconds: float = 12.1) -> FlightRecord:
         disturbance=Disturbance(),
         seconds=0.5,
     )
+
+
+def flown_set(*verdicts: Verdict) -> FlownSet:
+    """Of that plan, as if its flights, the undisturbed one first, had been judged so."""
+    plan = small_plan()
+    first, *others = (Flight(plan, small_record(plan), verdict) for verdict in verdicts)
+    return FlownSet(first, tuple(others))

@@ -2,51 +2,34 @@
 
 from __future__ import annotations
 
+import logging
 import time
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from typing import Any
 
 from knotopt.atlas.optional_rows import FlightRow, FlightTimesRow
 from knotopt.atlas.programs import Solved
 from knotopt.atlas.schema import KnotRow
 from knotopt.cable.cable import Cable
 from knotopt.errors import RequirementError
-from knotopt.flight.examine import examine_flight
-from knotopt.flight.plan import FlightPlan
 from knotopt.flight.planner import plan_flight
-from knotopt.sim.trials import Trial, fly_trial
+from knotopt.sim.trials import Flight, fly_trial
 from knotopt.supports.lcf import LcfResult
 from knotopt.supports.selection import GivenSupports
 
+logger = logging.getLogger(__name__)
+
 Supports = tuple[int, ...]
-
-
-@dataclass(frozen=True)
-class Flown:
-    """What came of one set: columns of its row, and the time [s].
-
-    Attributes
-    ----------
-    planned, tied : bool
-    why : str
-        Why there is no plan, or what went wrong in flight.
-    planning_seconds, simulation_seconds : float
-    outcome, verdict, flight_seconds, separation, strand_distance, tension, cable_length
-        As in `FlightRow`, None without a plan.
-    """
-
-    planned: bool
-    tied: bool
-    why: str
-    planning_seconds: float
-    simulation_seconds: float = 0.0
-    outcome: str | None = None
-    verdict: str | None = None
-    flight_seconds: float | None = None
-    separation: float | None = None
-    strand_distance: float | None = None
-    tension: float | None = None
-    cable_length: float | None = None
+MEASURED = [
+    "outcome",
+    "verdict",
+    "flight_seconds",
+    "separation",
+    "strand_distance",
+    "tension",
+    "cable_length",
+]
+"""Columns that are empty where there is no flight."""
 
 
 def fly_sets(
@@ -71,32 +54,31 @@ def fly_sets(
     for formulation, program in programs.items():
         if program.supports is not None:
             sets[formulation] = program.supports
-    flown: dict[Supports, Flown] = {}
+    flown: dict[Supports, Flight | str] = {}
     rows, times = [], []
+    span = programs.get("span")
     for name, supports in sets.items():
-        if supports in flown:
-            result = replace(flown[supports], planning_seconds=0.0, simulation_seconds=0.0)
-        else:
-            result = flown[supports] = fly_set(knot.knot, plain.cable, supports)
-        cells = asdict(result)
-        spent = {key: cells.pop(key) for key in ("planning_seconds", "simulation_seconds")}
+        seconds = 0.0, 0.0
+        if supports not in flown:
+            flown[supports], seconds = fly_set(knot.knot, plain.cable, supports)
         place = (knot.number, knot.knot, str(plain.cable.cut), name)
         chosen = GivenSupports(plain.cable, supports)
-        span = programs.get("span")
         rows.append(
             FlightRow(
                 *place,
                 robots=chosen.robots,
                 opening_open=programs["opening"].allows(chosen),
                 span_open=span.allows(chosen) if span else None,
-                **cells,
+                **_cells(flown[supports]),
             )
         )
-        times.append(FlightTimesRow(*place, **spent))
+        times.append(FlightTimesRow(*place, *seconds))
     return rows, times
 
 
-def fly_set(name: str, cable: Cable, supports: Supports) -> Flown:
+def fly_set(
+    name: str, cable: Cable, supports: Supports
+) -> tuple[Flight | str, tuple[float, float]]:
     """Plan a flight by the model of laid cable, without rehearsals, and fly it undisturbed.
 
     Parameters
@@ -107,6 +89,13 @@ def fly_set(name: str, cable: Cable, supports: Supports) -> Flown:
     supports : tuple of int
         Turning points with a support robot (1-based).
 
+    Returns
+    -------
+    Flight or str
+        Or why there is none.
+    tuple of float
+        Times of planning, and of simulating and judging [s].
+
     Raises
     ------
     MissingExtraError
@@ -116,32 +105,27 @@ def fly_set(name: str, cable: Cable, supports: Supports) -> Flown:
     try:
         plan = plan_flight(name, cable, supports, "file", schedule="optimised")
     except RequirementError as error:
-        return Flown(False, False, str(error), time.perf_counter() - began)
+        return str(error), (time.perf_counter() - began, 0.0)
     planned = time.perf_counter()
-    trial = fly_trial(plan)
-    simulated = time.perf_counter()
-    separation, amiss = _examined(plan, trial)
-    return Flown(
-        planned=True,
-        tied=trial.is_tied,
-        why="" if trial.is_tied else amiss,
-        planning_seconds=planned - began,
-        simulation_seconds=simulated - planned,
-        outcome=str(trial.verdict.outcome),
-        verdict=str(trial.verdict),
-        flight_seconds=plan.duration,
-        separation=separation,
-        strand_distance=trial.record.smallest_distance,
-        tension=trial.record.largest_tension,
-        cable_length=float(plan.lengths.sum()),
-    )
+    flight = fly_trial(plan)
+    logger.info("%s, cut %s, supports %s: %s", name, cable.cut, supports, flight.verdict)
+    return flight, (planned - began, time.perf_counter() - planned)
 
 
-def _examined(plan: FlightPlan, trial: Trial) -> tuple[float | None, str]:
-    """Least separation of two robots in a flight, and the first crossing amiss, in words."""
-    try:
-        found = examine_flight(plan, trial.record)
-    except ValueError:  # positions that are no numbers
-        return None, "the simulation broke down"
-    amiss = found.amiss[0].sentence if found.amiss else "every crossing as planned"
-    return found.limits.separation.value, amiss
+def _cells(flown: Flight | str) -> dict[str, Any]:
+    """Columns of a row that say what came of a set."""
+    if isinstance(flown, str):
+        return {"planned": False, "tied": False, "why": flown, **dict.fromkeys(MEASURED)}
+    plan, record, examination = flown.plan, flown.record, flown.examination
+    return {
+        "planned": True,
+        "tied": flown.is_tied,
+        "why": "" if flown.is_tied else flown.amiss or "every crossing as planned",
+        "outcome": str(flown.verdict.outcome),
+        "verdict": str(flown.verdict),
+        "flight_seconds": plan.duration,
+        "separation": examination.limits.separation.value if examination else None,
+        "strand_distance": record.smallest_distance,
+        "tension": record.largest_tension,
+        "cable_length": float(plan.lengths.sum()),
+    }

@@ -34,6 +34,7 @@ from knotopt.atlas.solvers import PACKAGES, compare_solvers
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import outer_cuts
 from knotopt.path.measures import both_methods, measure
+from knotopt.sim.simulators import MUJOCO
 from knotopt.supports.lcf import LcfResult, lcf
 from knotopt.supports.minimal import find_backend
 from knotopt.supports.selection import GivenSupports
@@ -91,9 +92,7 @@ def check_installed(settings: Settings) -> None:
     for solver in settings.solvers:
         find_backend(solver)
     if settings.physics:
-        from knotopt.rehearsal.cut_off import require_simulation
-
-        require_simulation()
+        MUJOCO.require()
 
 
 def is_checked(knot: KnotRow, settings: Settings) -> bool:

@@ -3,34 +3,37 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from knotopt.cli.fly_report import show_flight
+from knotopt.cli.fly_printing import show_mission
+from knotopt.cli.logs import telling
 from knotopt.cli.options import (
     JsonOption,
     KnotArgument,
-    OpennessOption,
     SupportsCutOption,
     SupportsOption,
+    check_choice,
+    openness_option,
+    refuse,
+    unless_given,
 )
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import track
+from knotopt.flight.limits import ROOM, FlightLimits
+from knotopt.flight.request import FLOWN, SCHEDULES, FlightRequest
+from knotopt.mission.disturbed import DisturbedFlights
+from knotopt.path.world import World
+from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
-    from knotopt.flight.plan import FlightPlan
     from knotopt.flight.record import Disturbance
-    from knotopt.mission.alternatives import Asked
-    from knotopt.mission.result import FlightResult
+    from knotopt.mission.mission import Mission
     from knotopt.supports.support_set import SupportSet
-
-RUNS = 5
-NOISE = 0.01  # [m]
 
 
 def fly(
@@ -39,13 +42,14 @@ def fly(
     cut: SupportsCutOption = "best",
     formulation: Annotated[
         str | None,
-        typer.Option(
-            help="Of the smallest set: span (the taut cable itself, which is what is flown; the "
-            "default) or opening (polygons through the grid's crossings).",
-            show_default=False,
+        unless_given(
+            str(FLOWN.formulation),
+            "Of the smallest set: span (the taut cable itself, which is what is flown) or opening "
+            "(polygons through the grid's crossings).",
+            metavar="NAME",
         ),
     ] = None,
-    r: OpennessOption = None,
+    r: Annotated[float | None, openness_option(FLOWN.openness)] = None,
     sim: Annotated[
         bool,
         typer.Option(
@@ -59,31 +63,40 @@ def fly(
         typer.Option(
             metavar="DIR",
             help="Write the flight: plan, waypoints, polynomials, Crazyswarm2's yaml and script, "
-            "pictures, report.html. Replaces a former flight there.",
+            "pictures, viewer.html. Replaces a former flight there.",
         ),
     ] = None,
     schedule: Annotated[
         str, typer.Option(help="optimised (the fastest), or fixed: at one pace, as in the paper.")
-    ] = "optimised",
-    step: Annotated[float, typer.Option(help="Metres per grid step.")] = 0.5,
-    altitude: Annotated[float, typer.Option(help="Of hovering robots [m].")] = 2.2,
-    floor: Annotated[float, typer.Option(help="Lowest that a robot flies [m].")] = 0.2,
-    ceiling: Annotated[float, typer.Option(help="Highest that a robot flies [m].")] = 3.2,
-    speed: Annotated[float, typer.Option(help="Largest, of a robot [m/s].")] = 0.6,
-    acceleration: Annotated[float, typer.Option(help="Largest, of a robot [m/s²].")] = 1.5,
-    separation: Annotated[float, typer.Option(help="Of robots at one height [m].")] = 0.2,
-    downwash: Annotated[float, typer.Option(help="Of a robot straight below another [m].")] = 0.33,
-    spacing: Annotated[float, typer.Option(help="Of robots in single file [m].")] = 0.3,
+    ] = FlightRequest.schedule,
+    step: Annotated[float, typer.Option(help="Metres per grid step.")] = ROOM.step,
+    altitude: Annotated[float, typer.Option(help="Of hovering robots [m].")] = ROOM.altitude,
+    floor: Annotated[float, typer.Option(help="Lowest that a robot flies [m].")] = ROOM.floor,
+    ceiling: Annotated[float, typer.Option(help="Highest that a robot flies [m].")] = ROOM.ceiling,
+    speed: Annotated[float, typer.Option(help="Largest, of a robot [m/s].")] = FlightLimits.speed,
+    acceleration: Annotated[
+        float, typer.Option(help="Largest, of a robot [m/s²].")
+    ] = FlightLimits.acceleration,
+    separation: Annotated[
+        float, typer.Option(help="Of robots at one height [m].")
+    ] = FlightLimits.separation,
+    downwash: Annotated[
+        float, typer.Option(help="Of a robot straight below another [m].")
+    ] = FlightLimits.downwash,
+    spacing: Annotated[
+        float, typer.Option(help="Of robots in single file [m].")
+    ] = FlightLimits.spacing,
     slack: Annotated[
         float, typer.Option(help="Cable beyond the farthest that two robots get apart, a share.")
-    ] = 0.1,
-    hover_before: Annotated[float, typer.Option(help="Before the flight [s].")] = 2.0,
-    hover_after: Annotated[float, typer.Option(help="After it [s].")] = 3.0,
+    ] = FlightLimits.slack,
+    hover_before: Annotated[
+        float, typer.Option(help="Before the flight [s].")
+    ] = FlightLimits.hover_before,
+    hover_after: Annotated[float, typer.Option(help="After it [s].")] = FlightLimits.hover_after,
     noise: Annotated[
         float | None,
-        typer.Option(
-            help="With --sim: standard deviation of robots' positions [m]; 0.01.",
-            show_default=False,
+        unless_given(
+            DisturbedFlights.noise, "With --sim: standard deviation of robots' positions [m]."
         ),
     ] = None,
     wind: Annotated[
@@ -92,19 +105,17 @@ def fly(
     ] = None,
     gust: Annotated[
         float | None,
-        typer.Option(
-            help="With --sim: standard deviation of the wind about it [m/s].", show_default=False
+        unless_given(
+            DisturbedFlights.gust, "With --sim: standard deviation of the wind about it [m/s]."
         ),
     ] = None,
     seed: Annotated[
         int | None,
-        typer.Option(
-            help="With --sim: of the first disturbed flight; 1.", min=0, show_default=False
-        ),
+        unless_given(DisturbedFlights.seed, "With --sim: of the first disturbed flight.", min=0),
     ] = None,
     runs: Annotated[
         int | None,
-        typer.Option(help="With --sim: disturbed flights; 5.", min=0, show_default=False),
+        unless_given(DisturbedFlights.runs, "With --sim: disturbed flights.", min=0),
     ] = None,
     tighten: Annotated[
         float | None,
@@ -123,22 +134,12 @@ def fly(
 
     Example: knotopt fly 3 --sim --out trefoil
     """
-    from knotopt.api import FLOWN
     from knotopt.catalogue.lookup import find_knot
-    from knotopt.files import check_folder
-    from knotopt.flight.limits import ROOM, FlightLimits
-    from knotopt.flight.planner import SCHEDULES
-    from knotopt.mission.folder import why_kept
-    from knotopt.path.world import World
-    from knotopt.supports.requirements import Requirements
     from knotopt.supports.selection import equally_small
 
-    if schedule not in SCHEDULES:
-        raise typer.BadParameter(f"is one of {', '.join(SCHEDULES)}", param_hint="--schedule")
+    check_choice("--schedule", schedule, SCHEDULES)
     if supports != "milp" and (r is not None or formulation is not None):
-        raise typer.BadParameter(
-            "goes with --supports milp", param_hint="--formulation" if r is None else "--r"
-        )
+        refuse("--formulation" if r is None else "--r", "goes with --supports milp")
     requirements = Requirements(
         formulation or FLOWN.formulation, FLOWN.openness if r is None else r
     )
@@ -146,54 +147,33 @@ def fly(
     limits = FlightLimits(
         speed, acceleration, separation, downwash, spacing, slack, hover_before, hover_after
     )
-    disturbances = _disturbances(noise, wind, gust, seed, runs, tighten, sim=sim)
-    if out is not None:
-        check_folder(out, why_kept)
-    if sim:
-        _check_physics()
+    given = {"noise": noise, "wind": wind, "gust": gust, "seed": seed, "runs": runs}
+    if not sim:
+        _refuse_without_physics(given | {"tighten": tighten})
+    disturbances = _disturbances(given)
+    _check_surroundings(out, sim=sim)
 
     named = find_knot(knot)
     sets = equally_small(named.diagram, supports, cut, requirements)
-    asked = (Path(supports).name, world, limits, schedule)
-    if sim:
-        result = _flown(named.name, sets, asked, disturbances, tighten)
-    else:
-        result = _planned(named.name, sets, asked)
-    missing = None if out is None else _write(result, out)
-    if as_json:
-        print_json({**result.content(), "written": None if out is None else str(out)})
-    else:
-        show_flight(result, f"{named.name} ({named.source})")
-        if missing:
-            print(missing)
-        if out is not None:
-            print_written(out)
-    if result.reasons:
+    request = FlightRequest(named.name, Path(supports).name, world, limits, schedule)
+    mission = _flown(sets, request, disturbances, tighten) if sim else _planned(sets, request)
+    _finish(mission, f"{named.name} ({named.source})", out, as_json=as_json)
+    if mission.reasons:
         raise typer.Exit(1)
 
 
-def _disturbances(
-    noise: float | None,
-    wind: str | None,
-    gust: float | None,
-    seed: int | None,
-    runs: int | None,
-    tighten: float | None,
-    *,
-    sim: bool,
-) -> list[Disturbance]:
-    """Of the disturbed flights, with consecutive seeds; refuses what goes with --sim only."""
-    from knotopt.flight.record import Disturbance
+def _refuse_without_physics(given: Mapping[str, object]) -> None:
+    for name, value in given.items():
+        if value is not None:
+            refuse(f"--{name}", "goes with --sim")
 
-    given = {"noise": noise, "wind": wind, "gust": gust, "seed": seed, "runs": runs}
-    for name, value in (given | {"tighten": tighten}).items():
-        if value is not None and not sim:
-            raise typer.BadParameter("goes with --sim", param_hint=f"--{name}")
-    usual = Disturbance(
-        NOISE if noise is None else noise, (0.0, 0.0) if wind is None else _wind(wind), gust or 0.0
-    )
-    first = 1 if seed is None else seed
-    return [replace(usual, seed=first + k) for k in range(RUNS if runs is None else runs)]
+
+def _disturbances(given: Mapping[str, Any]) -> list[Disturbance]:
+    """Of the disturbed flights, by what is given of them."""
+    options = {name: value for name, value in given.items() if value is not None}
+    if "wind" in options:
+        options["wind"] = _wind(options["wind"])
+    return DisturbedFlights(**options).disturbances()
 
 
 def _wind(text: str) -> tuple[float, float]:
@@ -202,86 +182,69 @@ def _wind(text: str) -> tuple[float, float]:
     except ValueError:
         x = y = math.nan
     if not (math.isfinite(x) and math.isfinite(y)):
-        raise typer.BadParameter(f"is X,Y in m/s, such as 0.3,0; not {text!r}", param_hint="--wind")
+        refuse("--wind", f"is X,Y in m/s, such as 0.3,0; not {text!r}")
     return x, y
 
 
-def _check_physics() -> None:
-    """Without MuJoCo nothing is planned in vain."""
-    from knotopt.errors import MissingExtraError
+def _check_surroundings(out: Path | None, *, sim: bool) -> None:
+    """Where nothing can be written or simulated, nothing is planned in vain."""
+    from knotopt.files import check_folder
+    from knotopt.mission.folder import why_kept
+    from knotopt.sim.simulators import MUJOCO
 
-    try:
-        import mujoco  # noqa: F401
-    except ImportError as error:
-        raise MissingExtraError("mujoco", "sim", "--sim") from error
+    if out is not None:
+        check_folder(out, why_kept)
+    if sim:
+        MUJOCO.require()
 
 
-def _planned(name: str, sets: Iterable[SupportSet], asked: Asked) -> FlightResult:
+def _planned(sets: Iterable[SupportSet], request: FlightRequest) -> Mission:
     """The flight by the model of laid cable."""
-    from knotopt.flight.planner import plan_flight
-    from knotopt.mission.alternatives import plan_first
+    from knotopt.mission.fly import plan_mission
 
     with _progress("planning"):
-        plan = plan_first(name, sets, asked)
-        steady = None
-        if plan.schedule != "fixed":
-            flown = (plan.cable, plan.supports, *asked[:-1])
-            steady = plan_flight(name, *flown, "fixed").duration
-        return _result(plan, steady)
+        return plan_mission(sets, request)
 
 
 def _flown(
-    name: str,
     sets: Iterable[SupportSet],
-    asked: Asked,
+    request: FlightRequest,
     disturbances: list[Disturbance],
     tighten: float | None,
-) -> FlightResult:
+) -> Mission:
     """The flight rehearsed, perhaps pulled tight, then flown undisturbed and disturbed."""
-    from knotopt.mission.alternatives import rehearse_first
-    from knotopt.mission.result import UNDISTURBED, examined, flown_content
-    from knotopt.sim.trials import fly_trial, wilson_interval
+    from knotopt.mission.fly import fly_disturbed, rehearse_mission
 
-    with _progress("rehearsing") as tell:
-        rehearsal = rehearse_first(name, sets, asked, tighten, tell)
-        plan = rehearsal.plan
-        result = _result(plan, None if plan.schedule == "fixed" else rehearsal.steady)
-    contents, failed = [], None
-    for disturbance in track(disturbances, "disturbed flights", len(disturbances)):
-        trial = fly_trial(plan, disturbance)
-        flown = examined(f"seed {disturbance.seed}", plan, trial.record, trial.verdict)
-        contents.append(flown_content(flown))
-        if failed is None and not flown.is_tied:
-            failed = flown
-    tied = sum(each["outcome"] == "tied" for each in contents)
-    return replace(
-        result,
-        rehearsal=rehearsal,
-        flown=examined(UNDISTURBED, plan, rehearsal.record, rehearsal.verdict),
-        failed=failed,
-        disturbed=tuple(contents),
-        interval=wilson_interval(tied, len(contents)) if contents else None,
-    )
+    with _progress("rehearsing"):
+        mission = rehearse_mission(sets, request, tighten)
+    flights = track(disturbances, "disturbed flights", len(disturbances))
+    return fly_disturbed(mission, flights)
 
 
-def _result(plan: FlightPlan, steady: float | None) -> FlightResult:
-    from knotopt.export.crazyswarm import export_files
-    from knotopt.flight.examine import examine_plan
-    from knotopt.mission.result import FlightResult
+def _finish(mission: Mission, title: str, out: Path | None, *, as_json: bool) -> None:
+    """Write and print what came of it."""
+    from knotopt.mission.content import mission_content
 
-    exports, fit = export_files(plan)
-    return FlightResult(plan, examine_plan(plan), exports, fit, steady)
+    missing = None if out is None else _write(mission, out)
+    if as_json:
+        print_json({**mission_content(mission), "written": None if out is None else str(out)})
+        return
+    show_mission(mission, title)
+    if missing:
+        print(missing)
+    if out is not None:
+        print_written(out)
 
 
-def _write(result: FlightResult, out: Path) -> str:
+def _write(mission: Mission, out: Path) -> str:
     """Write the folder; return what could not be part of it."""
     from knotopt.errors import MissingExtraError
     from knotopt.files import write_folder
     from knotopt.mission.folder import flight_files, flight_pictures, why_kept
 
-    files, missing = flight_files(result), ""
+    files, missing = flight_files(mission), ""
     try:
-        files.update(flight_pictures(result))
+        files.update(flight_pictures(mission))
     except MissingExtraError as error:
         missing = f"no pictures: {error}"
     write_folder(out, files, why_kept)
@@ -289,14 +252,17 @@ def _write(result: FlightResult, out: Path) -> str:
 
 
 @contextmanager
-def _progress(what: str) -> Iterator[Callable[[str], None]]:
+def _progress(what: str) -> Iterator[None]:
     """Say on the error stream what is being done, if somebody looks."""
     from rich.console import Console
     from rich.markup import escape
 
     console = Console(stderr=True)
     if not console.is_terminal:
-        yield lambda _: None
+        yield
         return
-    with console.status(what) as status:
-        yield lambda text: status.update(f"{what}: {escape(text)}")
+    with (
+        console.status(what) as status,
+        telling(lambda text: status.update(f"{what}: {escape(text)}")),
+    ):
+        yield

@@ -28,7 +28,7 @@ from knotopt.cli.progress import track
 from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
-    from knotopt.verify.certificate import Verdict
+    from knotopt.verify.certificate import CheckedCertificate
 
 
 def prove(
@@ -162,7 +162,7 @@ def _lines(file: Path) -> list[str]:
     return lines
 
 
-def _verdict_json(verdict: Verdict) -> dict[str, Any]:
+def _verdict_json(verdict: CheckedCertificate) -> dict[str, Any]:
     """What `--json` says of a certificate that was accepted."""
     return {
         "knot": verdict.knot,
@@ -197,7 +197,7 @@ def _print_verdicts(accepted: list[dict[str, Any]], rejected: list[dict[str, Any
     print(f"{len(accepted)} accepted, {len(rejected)} rejected")
 
 
-def _is_shipped(verdict: Verdict) -> bool:
+def _is_shipped(verdict: CheckedCertificate) -> bool:
     """Whether the grid is one that this package has under the certificate's name."""
     from knotopt.catalogue.knots import shipped_knots
     from knotopt.catalogue.table1_grids import table1_grids

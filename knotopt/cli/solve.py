@@ -25,6 +25,15 @@ from knotopt.cli.options import (
 )
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import logged_bar, track
+from knotopt.cli.solve_flown import (
+    FlightOptions,
+    MaxCutOption,
+    NoiseOption,
+    PhysicsBudgetOption,
+    TrialsOption,
+    fly_sets,
+)
+from knotopt.cli.solve_flown_printing import show_flown
 from knotopt.cli.solve_printing import (
     asked_in_words,
     search_json,
@@ -99,29 +108,10 @@ def solve(
             "again.",
         ),
     ] = False,
-    noise: Annotated[
-        float | None,
-        typer.Option(
-            help="Of the robots' positions in disturbed flights [m]; 0.01 by default.", metavar="M"
-        ),
-    ] = None,
-    trials: Annotated[
-        int | None,
-        typer.Option(
-            help="Disturbed flights that a set must tie in, beside the undisturbed one; 3 by "
-            "default.",
-        ),
-    ] = None,
-    physics_budget: Annotated[
-        float | None,
-        typer.Option(help="Fly no further set after so many seconds.", metavar="S"),
-    ] = None,
-    max_cut: Annotated[
-        int | None,
-        typer.Option(
-            help="Fly no further set once so many are cut off; 20 unless a budget is given."
-        ),
-    ] = None,
+    noise: NoiseOption = None,
+    trials: TrialsOption = None,
+    physics_budget: PhysicsBudgetOption = None,
+    max_cut: MaxCutOption = None,
     out: Annotated[
         Path | None,
         typer.Option(
@@ -149,7 +139,6 @@ def solve(
     """
     from knotopt.cable.cut import crossing_free_cuts
     from knotopt.catalogue.lookup import find_knot
-    from knotopt.cli.solve_flown import FlightTests, fly_sets, show_flown
     from knotopt.supports.minimal import all_minimal
     from knotopt.supports.search import supports_by_cut
 
@@ -173,16 +162,16 @@ def solve(
         words = "turning points are numbered along one cable: give --cut L+ or another"
         refuse("--forbid, --force", words)
     _check_export(export)
-    tests = FlightTests(noise, trials, physics_budget, max_cut, out)
+    flights = FlightOptions(noise, trials, physics_budget, max_cut, out)
     if verify_physics:
         others = {"--all": every, "--diagrams": diagrams > 1, "--max-robots": max_robots}
         _check_verification(cut, others)
-        flown = fly_sets(named, asked, cut, tests, solver=solver, limits=limits)
+        flown = fly_sets(named, asked, cut, flights, solver=solver, limits=limits)
         tied = flown.status == "tied"
         written = _write(named.name, flown.result, plot if tied else None, export)
         show_flown(named, flown, written, as_json=as_json)
         raise typer.Exit(0 if tied else 1)
-    tests.check_unused()
+    flights.check_unused()
     if cut == "all":
         cuts = crossing_free_cuts(named.diagram)
         found = supports_by_cut(named.diagram, asked, cuts=cuts, solver=solver, limits=limits)

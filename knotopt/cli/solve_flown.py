@@ -5,16 +5,18 @@ from __future__ import annotations
 import importlib.metadata
 import json
 import sys
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from knotopt.cli.options import run_header
-from knotopt.cli.printing import print_facts, print_json, print_note, print_table, print_written
-from knotopt.cli.solve_printing import search_json, show_search
+from knotopt.cli.logs import telling
+from knotopt.cli.options import refuse, run_header, unless_given
+from knotopt.cli.solve_flown_printing import flown_json
+from knotopt.rehearsal.flight_tests import FlightTests
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -24,9 +26,34 @@ if TYPE_CHECKING:
     from knotopt.rehearsal.cut_off import CutOff, FlownResult
     from knotopt.supports.requirements import Requirements
 
+NoiseOption = Annotated[
+    float | None,
+    unless_given(
+        FlightTests.noise, "Of the robots' positions in disturbed flights [m].", metavar="M"
+    ),
+]
+TrialsOption = Annotated[
+    int | None,
+    unless_given(
+        FlightTests.trials,
+        "Disturbed flights that a set must tie in, beside the undisturbed one.",
+    ),
+]
+PhysicsBudgetOption = Annotated[
+    float | None,
+    typer.Option(help="Fly no further set after so many seconds.", metavar="S"),
+]
+MaxCutOption = Annotated[
+    int | None,
+    unless_given(
+        f"{FlightTests.MAX_CUT} unless a budget is given",
+        "Fly no further set once so many are cut off.",
+    ),
+]
+
 
 @dataclass(frozen=True)
-class FlightTests:
+class FlightOptions:
     """The options of the flights; None for what is not given."""
 
     noise: float | None
@@ -40,10 +67,13 @@ class FlightTests:
         names = {"seconds": "--physics-budget", "max_cut": "--max-cut"}
         for field in fields(self):
             if getattr(self, field.name) is not None:
-                raise typer.BadParameter(
-                    "goes with --verify-physics",
-                    param_hint=names.get(field.name, f"--{field.name}"),
-                )
+                refuse(names.get(field.name, f"--{field.name}"), "goes with --verify-physics")
+
+    def tests(self) -> FlightTests:
+        """What sets are put to."""
+        names = [field.name for field in fields(FlightTests)]
+        given = {name: getattr(self, name) for name in names}
+        return FlightTests(**{name: value for name, value in given.items() if value is not None})
 
 
 class _UnfinishedError(Exception):
@@ -54,7 +84,7 @@ def fly_sets(
     named: NamedDiagram,
     asked: Requirements,
     cut: str,
-    tests: FlightTests,
+    options: FlightOptions,
     *,
     solver: str,
     limits: Limits,
@@ -62,40 +92,45 @@ def fly_sets(
     """Fly sets until one ties the knot; write the answer to the file asked for."""
     from knotopt.cable.cut import Cut
     from knotopt.errors import OutputError
-    from knotopt.files import resumable_lines, write_atomically
-    from knotopt.rehearsal import cut_off
+    from knotopt.rehearsal.cut_off import solve_flown
+    from knotopt.sim.simulators import MUJOCO
 
-    out = tests.out
-    if out is not None and out.suffix.lower() != ".json":
-        raise OutputError(f"{out}: the answer is written as .json")
-    cut_off.require_simulation()
-    noise = cut_off.NOISE if tests.noise is None else tests.noise
-    trials = cut_off.TRIALS if tests.trials is None else tests.trials
+    if options.out is not None and options.out.suffix.lower() != ".json":
+        raise OutputError(f"{options.out}: the answer is written as .json")
+    MUJOCO.require()
+    tests = options.tests()
 
     def search(
-        known: tuple[CutOff, ...], keep: Callable[[CutOff], None] | None = None
+        known: tuple[CutOff, ...] = (), keep: Callable[[CutOff], None] | None = None
     ) -> FlownResult:
-        with ExitStack() as stack:
-            return cut_off.solve_flown(
+        with _telling():
+            return solve_flown(
                 named.name,
                 named.diagram,
                 asked,
+                tests,
                 cuts=None if cut == "best" else [Cut.parse(cut, named.diagram.size)],
-                noise=noise,
-                trials=trials,
-                seconds=tests.seconds,
-                max_cut=tests.max_cut,
                 solver=solver,
                 limits=limits,
                 known=known,
                 on_cut_off=keep,
-                tell=_teller(stack),
             )
 
-    if out is None:
-        return search(())
-    versions = [importlib.metadata.version(package) for package in ("knotopt", "mujoco")]
-    settings = ["verify-physics", repr(asked), cut, noise, trials, versions]
+    if options.out is None:
+        return search()
+    versions = [importlib.metadata.version(package) for package in ("knotopt", MUJOCO.package)]
+    settings = ["verify-physics", repr(asked), cut, tests.noise, tests.trials, versions]
+    header = run_header("solve", settings, [named])
+    return _search_into(options.out, header, named, search)
+
+
+def _search_into(
+    out: Path, header: str, named: NamedDiagram, search: Callable[..., FlownResult]
+) -> FlownResult:
+    """Search from where a former run stopped, keep what is cut off, and write the answer."""
+    from knotopt.files import resumable_lines, write_atomically
+    from knotopt.rehearsal.cut_off import CutOff, FlownStatus
+
     found: list[FlownResult] = []
 
     def text(_: list[str]) -> str:
@@ -103,8 +138,8 @@ def fly_sets(
 
     done = 0
     try:
-        with resumable_lines(out, run_header("solve", settings, [named]), text) as lines:
-            known = tuple(cut_off.CutOff.from_json(json.loads(line)) for line in lines.done)
+        with resumable_lines(out, header, text) as lines:
+            known = tuple(CutOff.from_json(json.loads(line)) for line in lines.done)
             done = len(known)
             if known:
                 _note(f"cut off before, from {out}.partial: {_sets(done)}")
@@ -115,7 +150,7 @@ def fly_sets(
                 done += 1
 
             found.append(search(known, keep))
-            if found[0].status in (cut_off.FlownStatus.BUDGET, cut_off.FlownStatus.UNKNOWN):
+            if found[0].status in (FlownStatus.BUDGET, FlownStatus.UNKNOWN):
                 raise _UnfinishedError
     except _UnfinishedError:
         write_atomically(out, text([]))
@@ -130,140 +165,27 @@ def fly_sets(
     return found[0]
 
 
-def flown_json(named: NamedDiagram, flown: FlownResult) -> dict[str, Any]:
-    """What `--json` says."""
-    flight = flown.flight
-    content = search_json(named.name, flown.search, None)
-    for key in ("proven", "proven_over_cuts"):  # smaller sets that were cut off are open as well
-        content[key] = content[key] and not flown.smaller_cut_off
-    return content | {
-        "physics": {
-            "status": str(flown.status),
-            "noise": flown.noise,
-            "trials": flown.trials,
-            "tied": [] if flight is None else [str(v) for v in (flight.verdict, *flight.trials)],
-            "proven_but_for_cut_off": flown.is_proven,
-            "cut_off_by_robots": {str(k): count for k, count in flown.cut_off_by_robots.items()},
-            "cut_off": [
-                each.to_json() | {"robots": each.robots, "tied_instead": each.tied_instead}
-                for each in flown.cut_off
-            ],
-            "claim": claim(flown),
-        }
-    }
-
-
-def show_flown(
-    named: NamedDiagram, flown: FlownResult, written: list[Path], *, as_json: bool
-) -> None:
-    """The set that ties, what was cut off, what is proven, and the files `written`."""
-    if as_json:
-        print_json(flown_json(named, flown))
-        return
-    title = f"{named.name} ({named.source})"
-    best = flown.result
-    if flown.status == "tied":
-        show_search(title, flown.search, None, flown.smaller_cut_off)
-    elif not flown.cut_off and not best.found:
-        show_search(title, flown.search, None)
-        return
-    counts = ", ".join(f"{n} of {robots} robots" for robots, n in flown.cut_off_by_robots.items())
-    facts = [("cut off in flight", counts or "none")]
-    if flown.status == "tied":
-        facts.insert(0, ("tied in simulation", _flights(flown)))
-    elif best.found:
-        points = " ".join(f"p{k}" for k in best.supports) or "no supports"
-        words = f"{best.robots} robots, cut {best.cable.cut}, {points}: not flown"
-        facts.append(("next set", words))
-    print(f"{title}: {_ENDED[flown.status]}" if flown.status != "tied" else "")
-    print_facts(facts)
-    if flown.cut_off:
-        print_table(
-            ("robots", "cut", "supports", "tied instead", "trials", "first crossing that failed"),
-            [
-                (
-                    each.robots,
-                    each.cut,
-                    " ".join(f"p{k}" for k in each.supports) or "none",
-                    each.tied_instead,
-                    _tied_trials(each),
-                    each.failed,
-                )
-                for each in flown.cut_off
-            ],
-        )
-    print()
-    print_note(claim(flown))
-    for path in written:
-        print_written(path)
-
-
-_ENDED = {
-    "budget": "no set tied the knot before the budget ended",
-    "no set": "none of the sets that meet the requirements tied the knot",
-    "unknown": "no set tied the knot, and the solver stopped before it had another",
-}
-
-
-def claim(flown: FlownResult) -> str:
-    """What is proven, what was seen in flights, and what is not known."""
-    best, count, smaller = flown.result, len(flown.cut_off), flown.smaller_cut_off
-    rows = f"the rows of `{best.requirements.formulation}`"
-    many = len(flown.search.outcomes)
-    where = f"over the {many} cuts searched" if many > 1 else "on this cut"
-    sentences = []
-    if flown.is_proven:
-        but = f", but for {smaller} cut off" if smaller else ""
-        sentences.append(
-            f"Proven: no set of fewer than {best.robots} robots meets {rows} {where}{but}."
-        )
-    elif flown.status == "no set":
-        sentences.append(f"Proven: no set but the {count} cut off meets {rows} {where}.")
-    else:
-        sentences.append(f"The solver stopped early: smaller sets may meet {rows}.")
-    if flown.status == "tied":
-        sentences.append(f"Seen in simulation: it tied the knot {_flights(flown)}.")
-    if count:
-        sentences.append(
-            "The sets cut off failed in the flights tried; that is no proof that they, flown "
-            "otherwise, cannot tie the knot."
-        )
-    sentences.append(
-        f"Sets that do not meet {rows} were not flown. A knot counts as tied by its Alexander "
-        "polynomial, which does not tell mirror images apart."
-    )
-    return " ".join(sentences)
-
-
-def _flights(flown: FlownResult) -> str:
-    return (
-        f"undisturbed and in {flown.trials} of {flown.trials} flights with noise of "
-        f"{flown.noise:g} m (seeds 1 to {flown.trials})"
-    )
-
-
-def _tied_trials(each: CutOff) -> str:
-    if not each.trials:
-        return "-"
-    return f"{sum(trial.outcome == 'tied' for trial in each.trials)} of {len(each.trials)}"
-
-
-def _teller(stack: ExitStack) -> Callable[[str], None]:
+@contextmanager
+def _telling() -> Iterator[None]:
     """Sets go to the error stream line by line; what happens within one to its last line."""
     from rich.console import Console
+    from rich.markup import escape
 
     console = Console(stderr=True)
     if not console.is_terminal:
-        return lambda text: _note(text) if text.startswith("set ") else None
-    status = stack.enter_context(console.status("solving"))
+        with telling(lambda text: _note(text) if text.startswith("set ") else None):
+            yield
+        return
+    with console.status("solving") as status:
 
-    def tell(text: str) -> None:
-        if text.startswith("set "):
-            console.print(text, markup=False, highlight=False)
-        else:
-            status.update(text)
+        def tell(text: str) -> None:
+            if text.startswith("set "):
+                console.print(text, markup=False, highlight=False)
+            else:
+                status.update(escape(text))
 
-    return tell
+        with telling(tell):
+            yield
 
 
 def _sets(count: int) -> str:

@@ -20,7 +20,7 @@ from knotopt.export.polynomials import Trajectory
 from knotopt.export.recheck import FitReport, recheck
 from knotopt.export.waypoints import YAW, waypoints_csv
 from knotopt.flight.plan import FlightPlan
-from knotopt.flight.store import check_plan
+from knotopt.flight.plan_file import check_plan
 
 PEAK = 2.2  # largest over mean speed of the polynomial from rest to rest that robots take off by
 SHORTEST = 2.0  # time to take off or to land [s]

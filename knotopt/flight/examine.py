@@ -14,7 +14,7 @@ from fractions import Fraction
 import numpy as np
 
 from knotopt.arrays import FloatArray
-from knotopt.flight.plan import FlightPlan, PlannedCrossing
+from knotopt.flight.plan import FlightPlan, MotionPlan, PlannedCrossing
 from knotopt.flight.record import FlightRecord
 from knotopt.verify.flight import leader_events, nearest_approaches
 from knotopt.verify.flight_limits import LimitsReport, check_limits
@@ -107,7 +107,7 @@ def examine_plan(plan: FlightPlan) -> Examination:
     return Examination(report, _rows(words), compare_states(*states, words), lost)
 
 
-def examine_flight(plan: FlightPlan, record: FlightRecord) -> Examination:
+def examine_flight(plan: MotionPlan, record: FlightRecord) -> Examination:
     """What robots did that flew a plan, and what the leader crossed until the knot was laid.
 
     Raises
@@ -131,7 +131,7 @@ def examine_flight(plan: FlightPlan, record: FlightRecord) -> Examination:
 
 
 def _limits(
-    plan: FlightPlan, times: FloatArray, robots: FloatArray, *, hover: bool
+    plan: MotionPlan, times: FloatArray, robots: FloatArray, *, hover: bool
 ) -> LimitsReport:
     limits, world = plan.limits, plan.world
     return check_limits(

@@ -14,13 +14,13 @@ import shapely
 from scipy.optimize import brentq
 
 from knotopt.arrays import FloatArray
-from knotopt.flight.router import Gate
+from knotopt.flight.gates import Gate
 
 THIN = 0.02  # detail of laid cable that is left out in plan [grid steps]
 
 
 @dataclass(frozen=True)
-class Laid:
+class LaidCable:
     """Cable that is laid already.
 
     Attributes

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
+from typing import Self
 
 import numpy as np
 from scipy.spatial.distance import pdist
@@ -54,21 +55,15 @@ class PlannedCrossing:
         return f"span {self.span} {'over' if self.over else 'under'} span {self.older}"
 
 
-@dataclass(frozen=True, eq=False)
-class FlightPlan:
-    """Every robot's position over time. Robot 1 holds p_1; robot R, the leader, ends at p_2N.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MotionPlan:
+    """Every robot's position over time. Robot 1 holds the cable's first end; robot R, the leader,
+    its last.
 
     Attributes
     ----------
-    name : str
-        Of the knot.
-    cable : Cable
-    supports : tuple of int
-        Turning points with a support robot (1-based).
-    chosen_by : str
-        How the supports were chosen: "milp", "lcf", "all" or a file.
     schedule : str
-        "fixed" or "optimised".
+        "fixed", "optimised" or "rehearsed".
     world : World
     limits : FlightLimits
     times : float array, shape (T,)
@@ -90,10 +85,6 @@ class FlightPlan:
         [s]; 0 where it is not.
     """
 
-    name: str
-    cable: Cable
-    supports: tuple[int, ...]
-    chosen_by: str
     schedule: str
     world: World
     limits: FlightLimits
@@ -106,14 +97,14 @@ class FlightPlan:
     notes: tuple[str, ...] = field(default=())
     tightening: float = 0.0
 
-    def noted(self, *notes: str) -> FlightPlan:
+    def noted(self, *notes: str) -> Self:
         """The plan with further notes."""
         return replace(self, notes=(*self.notes, *notes))
 
     @property
     def robots(self) -> int:
         """Number of robots R, the two at the cable's ends included."""
-        return len(self.supports) + 2
+        return len(self.lengths) + 1
 
     @property
     def laid(self) -> float:
@@ -156,3 +147,34 @@ class FlightPlan:
     def interval(self) -> float:
         """Time between samples [s]."""
         return float(self.times[1] - self.times[0])
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FlightPlan(MotionPlan):
+    """A motion that ties the knot of a grid diagram with supports on its cable.
+
+    Attributes
+    ----------
+    name : str
+        Of the knot.
+    cable : Cable
+    supports : tuple of int
+        Turning points with a support robot (1-based).
+    chosen_by : str
+        How the supports were chosen: "milp", "lcf", "all" or a file.
+    """
+
+    name: str
+    cable: Cable
+    supports: tuple[int, ...]
+    chosen_by: str
+
+
+def with_supports(
+    motion: MotionPlan, name: str, cable: Cable, supports: tuple[int, ...], chosen_by: str
+) -> FlightPlan:
+    """A motion as the flight plan of a knot, with the attributes of `FlightPlan`."""
+    motion_values = {each.name: getattr(motion, each.name) for each in fields(MotionPlan)}
+    return FlightPlan(
+        **motion_values, name=name, cable=cable, supports=supports, chosen_by=chosen_by
+    )

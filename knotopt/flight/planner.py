@@ -1,9 +1,8 @@
-"""From supports to a flight plan: a route over every span, and a schedule."""
+"""From a layout to the motion of its robots: a route over every span, and a schedule."""
 
 from __future__ import annotations
 
-from copy import copy
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.spatial.distance import pdist
@@ -13,96 +12,97 @@ from knotopt.arrays import FloatArray
 from knotopt.cable.cable import Cable
 from knotopt.errors import RequirementError
 from knotopt.flight.formation import Formation
-from knotopt.flight.laid_cable import Laid, hanging_cable
+from knotopt.flight.gates import Crossed, RouteShape
+from knotopt.flight.grid_layout import layout_of_supports
+from knotopt.flight.laid_cable import LaidCable, hanging_cable
+from knotopt.flight.layout import Layout, Word
 from knotopt.flight.limits import ROOM, FlightLimits
-from knotopt.flight.plan import FlightPlan, PlannedCrossing
+from knotopt.flight.plan import FlightPlan, MotionPlan, PlannedCrossing, with_supports
+from knotopt.flight.request import SCHEDULES
 from knotopt.flight.route import SAMPLE, Passage, SpanRoute, SpanShape, build_route
-from knotopt.flight.router import Crossed, Router, RouteShape, Way
-from knotopt.flight.word import span_words
-from knotopt.path.mesh import robot_times
+from knotopt.flight.router import Router, Way
 from knotopt.path.world import World
 
 INTERVAL = 0.05  # between samples of a plan [s]
 MARGIN = 0.95  # share of speed and acceleration that a schedule uses
-OUTSIDE = 20.0  # as far as no route goes [grid steps]
 CLEAR = 1.15  # times the separation that routes keep from hovering robots
 APART = 1.03  # of the separation that robots keep at nodes
 WIDER = (1.0, 1.15, 1.3, 1.5, 1.75, 2.0)  # spacings tried
-SCHEDULES = ("optimised", "fixed")
 
 
+@dataclass(frozen=True, eq=False)
 class FlightPlanner:
-    """Plans the flight of a cable with its supports, span by span.
+    """The flight of a layout as far as it is planned; every step returns another planner.
 
     Parameters
     ----------
-    cable : Cable
-    supports : tuple of int
+    layout : Layout
     world : World
     limits : FlightLimits
-
-    Attributes
-    ----------
-    places : float array, shape (R, 2)
-        Of the robots in plan [grid steps].
-    words : tuple of tuple of Letter
-        Of each span.
-    spans : list of SpanRoute
-        Routes over the first spans, as far as they are planned.
-    lengths : list of float
-        Of the cable in these spans [grid steps].
+    spans : tuple of SpanRoute
+        Routes over the first spans.
+    lengths : tuple of float
+        Of the cable in these spans as they were planned first [grid steps].
     spacing : float
-        Between robots in file [m], at least that of the limits.
-    frozen : float array, shape (k, 3)
+        Between robots in file [m]; raised to that of the limits.
+    flown : float array, shape (k, 3)
         The beginning of the route that is not to change any more [grid steps].
+
+    Raises
+    ------
+    RequirementError
+        Robots that would hover closer than their separation.
     """
 
-    def __init__(
-        self, cable: Cable, supports: tuple[int, ...], world: World, limits: FlightLimits
-    ) -> None:
-        self.cable, self.supports = cable, supports
-        self.world, self.limits = world, limits
-        self.places = cable.cells[robot_times(cable, supports)].astype(float)
-        apart = pdist(self.places) * world.step
-        if apart.min() < limits.separation:
-            first, second = np.array(np.triu_indices(len(self.places), 1))[:, apart.argmin()]
+    layout: Layout
+    world: World = ROOM
+    limits: FlightLimits = field(default_factory=FlightLimits)
+    spans: tuple[SpanRoute, ...] = ()
+    lengths: tuple[float, ...] = ()
+    spacing: float = 0.0
+    flown: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "spacing", max(self.spacing, self.limits.spacing))
+        apart = pdist(self.places) * self.world.step
+        if apart.min() < self.limits.separation:
+            first, second = np.array(np.triu_indices(self.robots, 1))[:, apart.argmin()]
             raise RequirementError(
                 f"robots {first + 1} and {second + 1} hover {apart.min():.2f} m apart, less than "
-                f"the separation of {limits.separation:g} m: a larger grid step is needed"
+                f"the separation of {self.limits.separation:g} m: a larger grid step is needed"
             )
-        self.words = span_words(cable, supports)
-        self.spans: list[SpanRoute] = []
-        self.lengths: list[float] = []
-        self.spacing = limits.spacing
-        self.frozen: FloatArray = np.zeros((0, 3))
+
+    @property
+    def places(self) -> FloatArray:
+        """Of the robots in plan, shape (R, 2) [grid steps]."""
+        return self.layout.places
+
+    @property
+    def words(self) -> tuple[Word, ...]:
+        """Of the spans."""
+        return self.layout.words
 
     @property
     def robots(self) -> int:
         """Number of robots."""
-        return len(self.places)
+        return self.layout.robots
 
-    def modelled(self, spans: int) -> Laid:
+    def modelled_cable(self, spans: int) -> LaidCable:
         """The first spans, straight in plan and hanging as catenaries."""
-        ends = np.column_stack((self.places, np.zeros(len(self.places))))
-        return Laid(
+        ends = np.column_stack((self.places, np.zeros(self.robots)))
+        return LaidCable(
             [hanging_cable(ends[i], ends[i + 1], self.lengths[i], 40) for i in range(spans)]
         )
 
-    @property
-    def tail(self) -> FloatArray:
-        """A line in plan from p_1 out of the grid, that no route crosses, shape (2, 2)."""
-        inwards = np.sign(np.diff(self.cable.points[:2].astype(float), axis=0))[0]
-        return np.stack((self.places[0], self.places[0] - OUTSIDE * inwards))
-
     def crossed(self, spans: int) -> dict[int, list[tuple[float | None, float]]]:
-        """Where the first spans are crossed by later ones among them: time, arc length."""
+        """Where the first spans are crossed by later ones among them: rank, arc length."""
         found: dict[int, list[tuple[float | None, float]]] = {}
         for span in self.spans[:spans]:
             for gate in (passage.gate for passage in span.passages):
-                found.setdefault(gate.letter.older, []).append((gate.letter.first, gate.along))
+                found.setdefault(gate.letter.older, []).append((gate.letter.rank, gate.along))
         return found
 
-    def find_route(self, span: int, laid: Laid, shape: SpanShape) -> SpanRoute | None:
+    def find_route(self, span: int, laid: LaidCable, shape: SpanShape) -> SpanRoute | None:
         """A route over span `span` (1-based), past the spans before it, or None.
 
         Raises
@@ -116,7 +116,7 @@ class FlightPlanner:
             self.places[span - 1],
             self.places[span],
             self.cleared(shape.route),
-            [self.tail],
+            [self.layout.tail],
         )
         word = self.words[span - 1]
         orders: tuple[Crossed, ...] = (self.crossed(span - 1), {})
@@ -131,7 +131,7 @@ class FlightPlanner:
         needed = CLEAR * self.limits.separation / self.world.step
         return replace(shape, clear=max(shape.clear, needed))
 
-    def with_heights(self, way: Way, laid: Laid, shape: SpanShape) -> SpanRoute:
+    def with_heights(self, way: Way, laid: LaidCable, shape: SpanShape) -> SpanRoute:
         """A way with a height in every gate.
 
         Raises
@@ -156,64 +156,83 @@ class FlightPlanner:
             passages.append(Passage(gate, lies, height))
         return SpanRoute(way.points, tuple(passages))
 
-    def add(self, span: SpanRoute) -> None:
-        """Take a route for the next span."""
-        self.spans.append(span)
-        self.lengths.append(span.tether * (1 + self.limits.slack))
+    def with_next(self, route: SpanRoute) -> FlightPlanner:
+        """With a route over the first span that has none."""
+        length = route.tether * (1 + self.limits.slack)
+        return replace(self, spans=(*self.spans, route), lengths=(*self.lengths, length))
 
-    def plan_routes(self, shape: SpanShape) -> None:
-        """Routes over all spans that are not planned yet, by the model of laid cable.
+    def with_span(self, span: int, route: SpanRoute) -> FlightPlanner:
+        """With another route over span `span` (1-based); its cable stays as long."""
+        return replace(self, spans=(*self.spans[: span - 1], route, *self.spans[span:]))
+
+    def with_routes(self, shape: SpanShape) -> FlightPlanner:
+        """With routes over all spans that have none, by the model of laid cable.
 
         Raises
         ------
         RequirementError
             There is no way, and which span and crossings that is.
         """
+        planner = self
         for span in range(len(self.spans) + 1, self.robots):
-            laid = self.modelled(span - 1)
-            too_low: RequirementError | None = None
-            for tried in shape.narrower:
-                try:
-                    route = self.find_route(span, laid, tried)
-                except RequirementError as error:
-                    too_low = error
-                    continue
-                if route is not None:
-                    break
-            else:
-                if too_low is not None:
-                    raise too_low
-                word = ", ".join(map(str, self.words[span - 1])) or "no crossing"
-                raise RequirementError(
-                    f"there is no way for span {span}, from robot {span} to {span + 1}, with "
-                    f"{word}: the laid cable and the hovering robots leave no room"
-                )
-            self.add(route)
+            planner = planner.with_next(planner.modelled_route(span, shape))
+        return planner
+
+    def modelled_route(self, span: int, shape: SpanShape) -> SpanRoute:
+        """A route over span `span` (1-based) of this shape, or of one that needs less room.
+
+        Raises
+        ------
+        RequirementError
+            There is none.
+        """
+        laid = self.modelled_cable(span - 1)
+        too_low: RequirementError | None = None
+        for narrower in shape.narrower:
+            try:
+                route = self.find_route(span, laid, narrower)
+            except RequirementError as error:
+                too_low = error
+                continue
+            if route is not None:
+                return route
+        if too_low is not None:
+            raise too_low
+        word = ", ".join(map(str, self.words[span - 1])) or "no crossing"
+        raise RequirementError(
+            f"there is no way for span {span}, from robot {span} to {span + 1}, with "
+            f"{word}: the laid cable and the hovering robots leave no room"
+        )
 
     def formation(self) -> Formation:
         """The robots in file on the route over all spans."""
-        inwards = np.sign(np.diff(self.cable.points[:2].astype(float), axis=0))[0]
         spacing = self.spacing / self.world.step
-        approach = self.places[0] - inwards * (self.robots - 1) * spacing
-        return Formation(
-            build_route(approach, self.spans, self.frozen), self.world, self.limits, self.spacing
-        )
+        approach = self.places[0] + self.layout.outwards * (self.robots - 1) * spacing
+        route = build_route(approach, self.spans, self.flown)
+        return Formation(route, self.world, self.limits, self.spacing)
 
-    def space_out(self) -> Formation:
-        """The formation, with the file's spacing enlarged until robots keep their separation.
+    def with_spacing(self, spacing: float) -> FlightPlanner:
+        """With another distance between robots in file [m]."""
+        return replace(self, spacing=spacing)
+
+    def spaced_out(self) -> FlightPlanner:
+        """With the file's spacing enlarged until robots keep their separation, or to its double.
 
         Corners and arcs bring robots nearer to each other than their distance along the route.
         """
-        least = self.spacing
         for share in WIDER:
-            self.spacing = share * least
-            formation = self.formation()
-            if formation.separation >= APART:
+            wider = self.with_spacing(share * self.spacing)
+            if wider.formation().separation >= APART:
                 break
-        return formation
+        return wider
 
-    def start_farther(self, distance: float) -> None:
-        """Start the file farther outside, with more spacing; what is frozen of the route stays.
+    def with_flown(self, along: float) -> FlightPlanner:
+        """With the route up to a path coordinate [m] not to change any more."""
+        route = self.formation().route
+        return replace(self, flown=route.points[route.along * self.world.step <= along])
+
+    def started_farther(self, distance: float) -> FlightPlanner:
+        """With the file farther outside and more spacing; what has been flown of the route stays.
 
         Parameters
         ----------
@@ -221,41 +240,29 @@ class FlightPlanner:
             About [grid steps]: the route's points remain even.
         """
         count = round(distance / SAMPLE)
-        out = self.tail[1] - self.tail[0]
-        away = SAMPLE * np.arange(count, 0, -1)[:, None] * out / np.linalg.norm(out)
-        start = np.column_stack((self.frozen[0, :2] + away, np.zeros(count)))
-        self.frozen = np.concatenate((start, self.frozen))
-        self.spacing += count * SAMPLE * self.world.step / (self.robots - 1)
-
-    def copy(self) -> FlightPlanner:
-        """A planner that has the same routes and can be changed by itself."""
-        other = copy(self)
-        other.spans, other.lengths = list(self.spans), list(self.lengths)
-        return other
+        away = SAMPLE * np.arange(count, 0, -1)[:, None] * self.layout.outwards
+        start = np.column_stack((self.flown[0, :2] + away, np.zeros(count)))
+        spacing = self.spacing + count * SAMPLE * self.world.step / (self.robots - 1)
+        return replace(self, flown=np.concatenate((start, self.flown)), spacing=spacing)
 
     def cable_lengths(self, formation: Formation) -> FloatArray:
         """Of the cable between robots, enough for the whole flight, shape (R - 1,) [m]."""
         apart = formation.farthest * (1 + self.limits.slack)
         return np.maximum(apart, np.array(self.lengths) * self.world.step)
 
-    def plan(
-        self,
-        name: str,
-        chosen_by: str,
-        schedule: str | Schedule = "optimised",
-        lengths: FloatArray | None = None,
-    ) -> FlightPlan:
-        """The flight plan of the routes taken, which must be those of all spans.
+    def motion(
+        self, schedule: str | Schedule = "optimised", lengths: FloatArray | None = None
+    ) -> MotionPlan:
+        """The motion of all robots on the routes, which must be those of all spans.
 
         Parameters
         ----------
-        name, chosen_by : str
         schedule : str or Schedule
             "optimised", "fixed", or one at hand.
         lengths : float array, shape (R - 1,), optional
-            Of the cable between robots; at least what the flight needs [m].
+            Of the cable between robots; what the flight needs, unless given [m].
         """
-        formation = self.space_out() if lengths is None else self.formation()
+        formation = self.formation()
         limits, nodes = self.limits, formation.nodes
         derivatives = formation.derivatives(nodes)
         notes: tuple[str, ...] = ()
@@ -268,11 +275,11 @@ class FlightPlanner:
         if isinstance(schedule, Schedule):
             found = schedule
         elif schedule == "optimised":
-            found = fastest_schedule(nodes, *derivatives, *kept(limits))
+            found = fastest_schedule(nodes, *derivatives, *with_margin(limits))
             if not found.is_optimal:
                 notes += (f"the schedule is feasible, not proven optimal: {found.raw_status}",)
         else:
-            found = steady_schedule(nodes, *derivatives, *kept(limits))
+            found = steady_schedule(nodes, *derivatives, *with_margin(limits))
         duration = limits.hover_before + found.duration + limits.hover_after
         times = sample_times(int(np.ceil(duration / INTERVAL)) + 1)
         passed = iter(formation.route.passed)
@@ -283,21 +290,17 @@ class FlightPlanner:
                 when = limits.hover_before + found.when(along)
                 crossings.append(self._crossing(k, passage, along, formation, when))
         passes = [limits.hover_before + found.when(stop) for stop in formation.stops[:-1]]
-        return FlightPlan(
-            name,
-            self.cable,
-            self.supports,
-            chosen_by,
-            schedule if isinstance(schedule, str) else schedule.raw_status,
-            self.world,
-            limits,
-            times,
-            formation.positions(found.at(times - limits.hover_before)),
-            self.cable_lengths(formation) if lengths is None else lengths,
-            formation.drawn(),
-            tuple(crossings),
-            np.array(passes),
-            notes,
+        return MotionPlan(
+            schedule=schedule if isinstance(schedule, str) else schedule.raw_status,
+            world=self.world,
+            limits=limits,
+            times=times,
+            positions=formation.positions(found.at(times - limits.hover_before)),
+            lengths=self.cable_lengths(formation) if lengths is None else lengths,
+            route=formation.drawn(),
+            crossings=tuple(crossings),
+            passes=np.array(passes),
+            notes=notes,
         )
 
     def _crossing(
@@ -325,7 +328,7 @@ def sample_times(count: int) -> FloatArray:
     return times
 
 
-def kept(limits: FlightLimits) -> tuple[float, float]:
+def with_margin(limits: FlightLimits) -> tuple[float, float]:
     """Speed and acceleration that leave something for what happens between nodes."""
     return MARGIN * limits.speed, MARGIN * limits.acceleration
 
@@ -372,6 +375,7 @@ def plan_flight(
     """
     if schedule not in SCHEDULES:
         raise RequirementError(f"a schedule is one of {', '.join(SCHEDULES)}, not {schedule!r}")
-    planner = FlightPlanner(cable, supports, world, limits or FlightLimits())
-    planner.plan_routes(shape or SpanShape())
-    return planner.plan(name, chosen_by, schedule)
+    layout = layout_of_supports(cable, supports)
+    planner = FlightPlanner(layout, world, limits or FlightLimits())
+    motion = planner.with_routes(shape or SpanShape()).spaced_out().motion(schedule)
+    return with_supports(motion, name, cable, supports, chosen_by)

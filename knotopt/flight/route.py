@@ -15,7 +15,7 @@ from scipy.sparse import diags_array, eye_array
 from scipy.sparse.linalg import spsolve
 
 from knotopt.arrays import FloatArray
-from knotopt.flight.router import Gate, RouteShape
+from knotopt.flight.gates import Gate, RouteShape
 
 SAMPLE = 0.04  # between points of a route while it is smoothed [grid steps]
 SMOOTHING = 0.3  # length over which corners are rounded [grid steps]
@@ -111,6 +111,24 @@ class SpanRoute:
                 last = place
         return longest
 
+    def gates_among(self, points: FloatArray) -> list[int]:
+        """Which of the points on the way is the place of each gate, in the order of flight.
+
+        A place may be passed twice: every gate is sought behind the one before it.
+        """
+        found, begin = [], 0
+        for passage in self.passages:
+            apart = np.linalg.norm(points[begin:] - np.array(passage.gate.place), axis=1)
+            found.append(begin + int(np.argmin(apart)))
+            begin = found[-1] + 1
+        return found
+
+    def up_to(self, gates: int) -> SpanRoute:
+        """This route as far as the end of the straight run behind its first gates, one or more."""
+        passages = self.passages[:gates]
+        end = self.gates_among(self.points)[gates - 1] + 1
+        return SpanRoute(np.vstack((self.points[:end], passages[-1].gate.exit)), passages)
+
     def then(self, rest: SpanRoute) -> SpanRoute:
         """This route, gone on with from where it ends."""
         points = np.concatenate((self.points, rest.points[1:]))
@@ -168,10 +186,7 @@ def build_route(
     stops = [offset]
     for span in spans:
         piece = _sampled(span.points)
-        at = [
-            int(np.argmin(np.linalg.norm(piece - np.array(passage.gate.place), axis=1)))
-            for passage in span.passages
-        ]
+        at = span.gates_among(piece)
         levels.append(_profile(piece, at, span.passages)[1:])
         pieces.append(piece[1:])
         marks += [offset + index for index in at]

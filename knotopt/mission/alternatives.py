@@ -6,86 +6,102 @@ one, lay it in opposite orders, and in some the file's hanging cable hooks on wh
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Iterable
 from typing import Any, Protocol, Self, TypeVar
 
 from knotopt.errors import RequirementError
-from knotopt.flight.limits import FlightLimits
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.planner import plan_flight
-from knotopt.path.world import World
-from knotopt.rehearsal.rehearse import Rehearsal, rehearse_flight
+from knotopt.flight.request import FlightRequest
+from knotopt.rehearsal.flown_set import FlownSet
+from knotopt.rehearsal.rehearse import rehearse_flight
 from knotopt.rehearsal.tighten import check_tightening, tighten_flight
+from knotopt.sim.simulators import MUJOCO, Simulator
 from knotopt.supports.support_set import SupportSet
+
+logger = logging.getLogger(__name__)
 
 
 class Notable(Protocol):
-    """What takes notes for its user, such as a `FlightPlan` or a `Rehearsal`."""
+    """What takes notes for its user, such as a `FlightPlan` or a `FlownSet`."""
 
     def noted(self, *notes: str) -> Self:
         """The same with further notes."""
 
 
 PASSED = "not on cut"  # begins the note on a set that was passed over
-Tried = TypeVar("Tried", bound=Notable)
-
-Asked = tuple[str, World, FlightLimits | None, str]
-"""How the supports were chosen, the room, the robots' limits, the schedule; see `plan_flight`."""
+Found = TypeVar("Found", bound=Notable)
 
 
-def plan_first(name: str, sets: Iterable[SupportSet], asked: Asked) -> FlightPlan:
+def plan_first(sets: Iterable[SupportSet], request: FlightRequest) -> FlightPlan:
     """A flight of the first set that has one by the model of laid cable.
 
     Raises
     ------
     As `plan_flight`.
     """
-    return first_good(sets, lambda each: plan_flight(name, each.cable, each.supports, *asked))
+    return first_good(sets, lambda chosen: plan_set(chosen, request))
+
+
+def plan_set(chosen: SupportSet, request: FlightRequest) -> FlightPlan:
+    """A flight of one set by the model of laid cable.
+
+    Raises
+    ------
+    As `plan_flight`.
+    """
+    return plan_flight(
+        request.name,
+        chosen.cable,
+        chosen.supports,
+        request.chosen_by,
+        request.world,
+        request.limits,
+        request.schedule,
+    )
 
 
 def rehearse_first(
-    name: str,
     sets: Iterable[SupportSet],
-    asked: Asked,
+    request: FlightRequest,
     tighten: float | None = None,
-    tell: Callable[[str], None] | None = None,
     attempts: int = 6,
-) -> Rehearsal:
+    simulator: Simulator = MUJOCO,
+) -> FlownSet:
     """A flight of the first set that ties the knot in simulation with the robots apart.
 
     Parameters
     ----------
-    name, sets, asked
+    sets : iterable of SupportSet
+    request : FlightRequest
     tighten : float, optional
         Pull the knot tight after it, the ends at most that far apart [m].
-    tell : callable, optional
-        Is told what is being flown.
     attempts : int
         Flights that are begun anew at most, for each set.
+    simulator : Simulator
 
     Raises
     ------
     As `rehearse_flight` and `tighten_flight`.
     """
 
-    def attempt(chosen: SupportSet) -> Rehearsal:
+    def attempt(chosen: SupportSet) -> FlownSet:
         if tighten is not None:
-            check_tightening(chosen.cable, tighten, asked[1])
-        if tell is not None:
-            tell(f"{chosen.robots} robots on cut {chosen.cable.cut}")
-        flown = (chosen.cable, chosen.supports, *asked)
-        found = rehearse_flight(name, *flown, tell=tell, attempts=attempts)
-        return found if tighten is None else tighten_flight(found, tighten, tell)
+            check_tightening(chosen.cable, tighten, request.world)
+        logger.info("%d robots on cut %s", chosen.robots, chosen.cable.cut)
+        flown = rehearse_flight(chosen.cable, chosen.supports, request, attempts, simulator)
+        return flown if tighten is None else tighten_flight(flown, tighten, simulator)
 
     return first_good(sets, attempt, lambda each: each.against, lambda each: each.rank[:3])
 
 
 def first_good(
     sets: Iterable[SupportSet],
-    attempt: Callable[[SupportSet], Tried],
-    against: Callable[[Tried], str] = lambda _: "",
-    rank: Callable[[Tried], Any] = lambda _: 0,
-) -> Tried:
+    attempt: Callable[[SupportSet], Found],
+    against: Callable[[Found], str] = lambda _: "",
+    rank: Callable[[Found], Any] = lambda _: 0,
+) -> Found:
     """What comes of the first set that nothing speaks against, or else of the best one.
 
     Parameters
@@ -108,7 +124,7 @@ def first_good(
     RequirementError
         Every attempt raised one; it is that of the first.
     """
-    found: list[tuple[SupportSet, Tried]] = []
+    found: list[tuple[SupportSet, Found]] = []
     failed: list[tuple[SupportSet, RequirementError]] = []
     for chosen in sets:
         try:

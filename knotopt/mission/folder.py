@@ -7,12 +7,15 @@ from collections.abc import Mapping
 from fnmatch import fnmatch
 from pathlib import Path
 
-from knotopt.flight.store import FORMAT, plan_to_json
-from knotopt.mission.result import FlightResult
+from knotopt.flight.plan_file import FORMAT, plan_to_json
+from knotopt.mission.content import mission_content
+from knotopt.mission.mission import Mission
 from knotopt.viewer.page import flight_page
 
 MARK = "plan.json"
 """The file that every such folder has."""
+
+PAGE = "viewer.html"
 
 NAMES = (
     MARK,
@@ -23,22 +26,22 @@ NAMES = (
     "fly.py",
     "flight.png",
     "strip.png",
-    "report.html",
+    PAGE,
 )
 
+OLDER = ("report.html",)
+"""Names of files that earlier versions wrote."""
 
-def flight_files(result: FlightResult) -> dict[str, str | bytes]:
+
+def flight_files(mission: Mission) -> dict[str, str | bytes]:
     """All files of a flight but the pictures, by name."""
-    plan = result.plan
     texts = {
-        MARK: plan_to_json(plan),
-        **result.exports,
-        "check.json": json.dumps(result.content(), indent=1, allow_nan=False) + "\n",
+        MARK: plan_to_json(mission.plan),
+        **mission.exports,
+        "check.json": json.dumps(mission_content(mission), indent=1, allow_nan=False) + "\n",
     }
     records = [
-        (flight.name, flight.record)
-        for flight in (result.flown, result.failed)
-        if flight is not None and flight.examination is not None
+        (name, flight.record) for name, flight in mission.flights if flight.examination is not None
     ]
     rows: list[Mapping[str, str]] = [
         {
@@ -47,14 +50,14 @@ def flight_files(result: FlightResult) -> dict[str, str | bytes]:
             "result": row.result,
             "what happened": row.happened,
         }
-        for name, row in result.events()
+        for name, row in mission.crossings()
     ]
-    measures = [*result.measures(), *(("not good", reason) for reason in result.reasons)]
-    page = flight_page(plan, records, measures, rows, texts)
-    return {**texts, "report.html": page}
+    measures = [*mission.measures(), *(("not good", reason) for reason in mission.reasons)]
+    page = flight_page(mission.plan, records, measures, rows, texts)
+    return {**texts, PAGE: page}
 
 
-def flight_pictures(result: FlightResult) -> dict[str, bytes]:
+def flight_pictures(mission: Mission) -> dict[str, bytes]:
     """`flight.png`, and `strip.png` of the undisturbed flight in physics.
 
     Raises
@@ -65,12 +68,13 @@ def flight_pictures(result: FlightResult) -> dict[str, bytes]:
     from knotopt.plot.figures import figure_bytes
     from knotopt.plot.flight import flight_figure, strip_figure
 
-    plan, flown = result.plan, result.flown
+    plan = mission.plan
     pictures = {"flight.png": figure_bytes(flight_figure(plan), "png")}
-    if flown is not None and flown.examination is not None:
-        title = f"{plan.name}: {plan.robots} robots, {flown.name} flight: {flown.verdict}"
-        strip = strip_figure(flown.record, plan, title=title)
-        pictures["strip.png"] = figure_bytes(strip, "png")
+    for name, flight in mission.flights[:1]:
+        if flight.examination is not None:
+            title = f"{plan.name}: {plan.robots} robots, {name} flight: {flight.verdict}"
+            strip = strip_figure(flight.record, plan, title=title)
+            pictures["strip.png"] = figure_bytes(strip, "png")
     return pictures
 
 
@@ -80,7 +84,7 @@ def why_kept(path: Path) -> str:
     A file of the user's own in it would be lost.
     """
     for entry in sorted(path.iterdir()):
-        if entry.is_dir() or not any(fnmatch(entry.name, name) for name in NAMES):
+        if entry.is_dir() or not any(fnmatch(entry.name, name) for name in (*NAMES, *OLDER)):
             return f"holds {entry.name}, which is no file of a flight: name another folder"
     try:
         with (path / MARK).open(encoding="utf-8") as stream:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import logging
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,15 +12,18 @@ from formulations.schedule import Schedule, greedy_schedule
 from knotopt.arrays import FloatArray
 from knotopt.errors import RequirementError
 from knotopt.flight.formation import NODES
-from knotopt.flight.plan import FlightPlan
-from knotopt.flight.planner import INTERVAL, FlightPlanner, kept, sample_times
+from knotopt.flight.gates import RouteShape
+from knotopt.flight.layout import Word
+from knotopt.flight.leader_crossings import happened_word, leader_crossings
+from knotopt.flight.plan import MotionPlan
+from knotopt.flight.planner import INTERVAL, FlightPlanner, sample_times, with_margin
 from knotopt.flight.route import HeightShape, SpanRoute, SpanShape
-from knotopt.flight.router import Router, RouteShape
-from knotopt.flight.word import Letter
+from knotopt.flight.router import Router
 from knotopt.rehearsal.observer import Observer
-from knotopt.sim.simulation import Checkpoint, Simulation
-from knotopt.verify.flight import leader_events
-from knotopt.verify.flight_word import reduced_word
+from knotopt.sim.simulation import Checkpoint
+from knotopt.sim.simulators import MUJOCO, Simulator
+
+logger = logging.getLogger(__name__)
 
 SHAPES = tuple(
     SpanShape(RouteShape(run, apart), HeightShape(above, below))
@@ -41,12 +45,15 @@ STUCK = 10  # letters that being stuck counts as
 
 @dataclass(frozen=True, eq=False)
 class _Leg:
-    """One way on to the next crossing, flown: what was planned, and where that leads."""
+    """One way on to the next crossing, flown: the planner with it, and where that leads.
+
+    `wrong` and `near` count letters of the word, see `RehearsedFlight._judged`.
+    """
 
     wrong: int
     near: int
     finished: bool
-    span: SpanRoute
+    planner: FlightPlanner
     timing: Schedule
     setpoints: FloatArray
     checkpoint: Checkpoint
@@ -58,18 +65,30 @@ class _Leg:
 
 
 class RehearsedFlight:
-    """A flight under way, from its start.
+    """A flight under way: the only thing here that changes, as its simulation does.
 
     Parameters
     ----------
     planner : FlightPlanner
-        With routes over all spans; those flown replace them.
+        With routes over all spans, none of them flown.
     spare : float array, shape (R - 1,)
         Cable of each span over what these routes need.
     shapes : tuple of SpanShape
         To be tried at every crossing, in order.
-    tell : callable
-        Is told what was flown.
+    simulator : Simulator
+
+    Attributes
+    ----------
+    planner : FlightPlanner
+        The routes flown so far, and those of `planner` after them.
+    lengths : float array, shape (R - 1,)
+        Of the cable between robots [m].
+    given_up : list of str
+        Crossings that no way tried made happen.
+    ways : int
+        Ways from crossing to crossing that were flown.
+    stuck : bool
+        Whether a taut cable held robots back.
     """
 
     def __init__(
@@ -77,29 +96,27 @@ class RehearsedFlight:
         planner: FlightPlanner,
         spare: FloatArray,
         shapes: tuple[SpanShape, ...],
-        tell: Callable[[str], None],
+        simulator: Simulator = MUJOCO,
     ) -> None:
-        self.planner, self.shapes, self.tell = planner, shapes, tell
-        planner.frozen = planner.frozen[:0]
-        formation = planner.space_out()
+        self.planner, self.shapes = planner.spaced_out(), shapes
+        formation = self.planner.formation()
         self.lengths = planner.cable_lengths(formation) * spare
         self.along = formation.begin
         self.first = formation.positions(np.array([self.along]))[0]
-        self.simulation = Simulation(
+        self.simulation = simulator.start(
             self.first,
             self.lengths,
             step=planner.world.step,
             speed=planner.limits.speed,
         )
-        self.observer = Observer(planner, self.simulation)
         self.legs: list[_Leg] = []
         self.began: list[float] = []
-        self.failed: list[str] = []
+        self.given_up: list[str] = []
         self.ways = 0
         self.stuck = False
 
-    def rehearsed(self, name: str, chosen_by: str) -> FlightPlan:
-        """The plan as it was flown, timing included."""
+    def motion(self) -> MotionPlan:
+        """The motion as it was flown, timing included."""
         limits = self.planner.limits
         before, after = (
             int(np.ceil(time / INTERVAL)) for time in (limits.hover_before, limits.hover_after)
@@ -107,7 +124,7 @@ class RehearsedFlight:
         flown = np.concatenate((self.first[None], *(leg.setpoints for leg in self.legs)))
         hover = [np.repeat(flown[:1], before, axis=0), np.repeat(flown[-1:], after, axis=0)]
         positions = np.concatenate((hover[0], flown, hover[1]))
-        planned = self.planner.plan(name, chosen_by, self._timing(), self.lengths)
+        planned = self.planner.motion(self._timing(), self.lengths)
         times = sample_times(len(positions))
         return replace(planned, schedule="rehearsed", positions=positions, times=times)
 
@@ -142,21 +159,18 @@ class RehearsedFlight:
         """Fly the leader from its stop at robot `span`'s place to the next one."""
         word = self.planner.words[span - 1]
         self.began.append(self.simulation.clock)
+        if not word:
+            self._take(self._fly(span, self.planner.spans[span - 1], 0))
+            return
         for done in range(len(word) + 1):
-            if not word:
-                leg = self._fly(span, self.planner.spans[span - 1], 0)
-                self._take(leg)
-                return
             self._next_crossing(span, word, done)
 
-    def _next_crossing(self, span: int, word: tuple[Letter, ...], done: int) -> None:
+    def _next_crossing(self, span: int, word: Word, done: int) -> None:
         """Fly through gate `done` (from 0) of a span, or from the last one to the next robot."""
-        start, spans = self.simulation.state(), list(self.planner.spans)
-        along = self.along
+        start = self.simulation.checkpoint()
         best: _Leg | None = None
         for route in self._ways_on(span, word, done):
             self.simulation.restore(start)
-            self.planner.spans[:], self.along = spans, along
             trial = self._fly(span, route, done + 1)
             if best is None or trial.rank < best.rank:
                 best = trial
@@ -164,34 +178,32 @@ class RehearsedFlight:
                 break
         if best is None:  # no way on was found: what was planned before is flown
             self.simulation.restore(start)
-            self.planner.spans[:], self.along = spans, along
-            best = self._fly(span, spans[span - 1], done + 1)
+            best = self._fly(span, self.planner.spans[span - 1], done + 1)
         self.simulation.restore(best.checkpoint)
-        self.planner.spans[span - 1] = best.span
         self._take(best)
         name = f"span {span} {word[done]}" if done < len(word) else f"the end of span {span}"
         if best.wrong:
-            self.failed.append(name)
-        self.tell(f"{name}: {'as planned' if not best.wrong else 'not as planned'}")
+            self.given_up.append(name)
+        logger.info("%s: %s", name, "as planned" if not best.wrong else "not as planned")
 
     def _take(self, leg: _Leg) -> None:
         """Make what was flown part of the flight: the route up to here changes no more."""
         self.legs.append(leg)
         self.stuck |= not leg.finished
         self.along = float(leg.timing.nodes[-1])
-        route = self.planner.formation().route
-        self.planner.frozen = route.points[route.along * self.planner.world.step <= self.along]
+        self.planner = leg.planner.with_flown(self.along)
 
-    def _ways_on(self, span: int, word: tuple[Letter, ...], done: int) -> Iterator[SpanRoute]:
+    def _ways_on(self, span: int, word: Word, done: int) -> Iterator[SpanRoute]:
         """Routes over a span that go on from here, past the cable as it lies."""
-        planner, observer = self.planner, self.observer
+        planner = self.planner
+        observer = Observer(planner, self.simulation)
         laid = observer.laid(span - 1)
-        flown = _flown(planner.spans[span - 1], done) if done else None
+        flown = planner.spans[span - 1].up_to(done) if done else None
         start = planner.places[span - 1] if flown is None else flown.points[-1]
         tether = observer.tether(span)
-        walls = [[planner.tail, tether]] if tether is not None else []
+        walls = [[planner.layout.tail, tether]] if tether is not None else []
         seen = set()
-        for barriers in (*walls, [planner.tail], []):
+        for barriers in (*walls, [planner.layout.tail], []):
             for shape in self.shapes:
                 router = Router(
                     laid.in_plan,
@@ -221,8 +233,7 @@ class RehearsedFlight:
 
     def _fly(self, span: int, route: SpanRoute, gates: int) -> _Leg:
         """Fly through that many gates of a route, or to its end."""
-        planner, simulation = self.planner, self.simulation
-        planner.spans[span - 1] = route
+        planner = self.planner.with_span(span, route)
         formation = planner.formation()
         before = sum(len(each.passages) for each in planner.spans[: span - 1])
         step = planner.world.step
@@ -231,15 +242,16 @@ class RehearsedFlight:
             gate = route.passages[gates - 1].gate
             end = (formation.route.passed[before + gates - 1] + gate.run) * step
         nodes = np.linspace(self.along, end, max(int((end - self.along) / NODES), 8))
-        timing = greedy_schedule(nodes, *formation.derivatives(nodes), *kept(planner.limits))
+        timing = greedy_schedule(nodes, *formation.derivatives(nodes), *with_margin(planner.limits))
         count = int(np.ceil(timing.duration / INTERVAL)) + 1
         positions = formation.positions(timing.at(sample_times(count)))
-        finished = simulation.follow(positions, INTERVAL)
-        self.along = end
+        finished = self.simulation.follow(positions, INTERVAL)
         self.ways += 1
         wrong, near = self._judged(span, gates)
         wrong += 0 if finished else STUCK
-        return _Leg(wrong, near, finished, route, timing, positions[1:], simulation.state())
+        logger.debug("way %d: %d letters wrong, %d crossings near it", self.ways, wrong, near)
+        checkpoint = self.simulation.checkpoint()
+        return _Leg(wrong, near, finished, planner, timing, positions[1:], checkpoint)
 
     def _judged(self, span: int, gates: int) -> tuple[int, int]:
         """Letters of a span's word so far that are wrong, and crossings that were near to it.
@@ -247,37 +259,16 @@ class RehearsedFlight:
         Near to being wrong are crossings beyond the word, although others undid them, and those
         with little height between.
         """
-        record = self.simulation.record()
-        later = record.clock >= self.began[span - 1] - 0.3
-        times = np.array(self.began + [1e9] * (self.planner.robots - 1 - len(self.began)))
-        events = [
-            event
-            for event in leader_events(
-                record.times[later],
-                record.cable[later],
-                record.held,
-                times,
-                clock=record.clock[later],
-            )
-            if event.span == span
-        ]
-        word = self.planner.words[span - 1][:gates]
-        happened = [(event.older, event.over, event.sense) for event in reduced_word(events)]
-        wanted = [(letter.older, letter.over, letter.sense) for letter in word]
+        crossings = leader_crossings(self.simulation.record(), span, self.began[span - 1])
+        wanted, happened = (
+            [(letter.older, letter.over, letter.sense) for letter in word]
+            for word in (self.planner.words[span - 1][:gates], happened_word(crossings))
+        )
         same = 0
         while same < min(len(wanted), len(happened)) and wanted[same] == happened[same]:
             same += 1
         wrong = len(wanted) + len(happened) - 2 * same
         tight = CLOSE * self.planner.world.step
-        near = sum(not event.own and abs(event.gap) < tight for event in events)
-        near += max(sum(not event.curl for event in events) - len(wanted), 0)
+        near = sum(not each.is_own and abs(each.gap) < tight for each in crossings)
+        near += max(sum(not each.is_curl for each in crossings) - len(wanted), 0)
         return wrong, near
-
-
-def _flown(route: SpanRoute, done: int) -> SpanRoute:
-    """A route up to the end of the run behind gate `done` (from 1)."""
-    gate = route.passages[done - 1].gate
-    at = next(
-        k for k in range(len(route.points) - 1, -1, -1) if np.allclose(route.points[k], gate.place)
-    )
-    return SpanRoute(np.concatenate((route.points[: at + 1], [gate.exit])), route.passages[:done])

@@ -7,12 +7,11 @@ proof that it cannot be flown; it says that the flights tried failed.
 
 from __future__ import annotations
 
-import importlib.util
-import math
+import logging
 import time
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from enum import StrEnum
 from typing import Any
 
@@ -20,20 +19,23 @@ from formulations.backends import DEFAULT
 from formulations.solution import Limits, Status
 from knotopt.cable.cut import Cut
 from knotopt.diagram.grid import GridDiagram
-from knotopt.errors import MissingExtraError, RequirementError
-from knotopt.flight.examine import examine_flight
-from knotopt.flight.record import Disturbance
-from knotopt.rehearsal.rehearse import Rehearsal, rehearse_flight
+from knotopt.errors import RequirementError
+from knotopt.flight.request import FlightRequest
+from knotopt.rehearsal.flight_tests import FlightTests
+from knotopt.rehearsal.flown_set import FlownSet
+from knotopt.rehearsal.rehearse import rehearse_flight
 from knotopt.sim.judge import Outcome, Verdict
-from knotopt.sim.trials import Trial, fly_trials
+from knotopt.sim.simulators import MUJOCO, Simulator
+from knotopt.sim.trials import fly_trials
 from knotopt.supports.by_size import Supports, sets_in_order
 from knotopt.supports.minimal import MinimalSupports
 from knotopt.supports.requirements import Requirements
 from knotopt.supports.search import CutSearch
+from knotopt.supports.support_set import SupportSet
 
-NOISE = 0.01  # of the robots' positions [m]
-TRIALS = 3
-MAX_CUT = 20
+logger = logging.getLogger(__name__)
+
+AS_PLANNED = "every crossing happened as planned; where along the spans is not compared"
 
 
 class FlownStatus(StrEnum):
@@ -46,35 +48,6 @@ class FlownStatus(StrEnum):
 
 
 @dataclass(frozen=True)
-class FlightTest:
-    """What came of flying one set.
-
-    Attributes
-    ----------
-    verdict : Verdict or None
-        Of the undisturbed flight; None if no flight could be planned.
-    trials : tuple of Verdict
-        Of the disturbed flights; none are flown where the undisturbed one fails.
-    failed : str
-        The first crossing that did not happen as planned, and how, in the first flight that failed;
-        or why there is no plan.
-    rehearsal : Rehearsal or None
-    """
-
-    verdict: Verdict | None
-    trials: tuple[Verdict, ...] = ()
-    failed: str = ""
-    rehearsal: Rehearsal | None = None
-
-    @property
-    def is_tied(self) -> bool:
-        """Whether every flight tied the knot."""
-        return self.verdict is not None and all(
-            verdict.outcome is Outcome.TIED for verdict in (self.verdict, *self.trials)
-        )
-
-
-@dataclass(frozen=True)
 class CutOff:
     """A set that was flown and did not tie the knot in all flights.
 
@@ -84,8 +57,13 @@ class CutOff:
         Of the diagram, such as "L+".
     supports : tuple of int
         1-based on the path, without p_1 and p_n.
-    verdict, trials, failed
-        As in `FlightTest`.
+    verdict : Verdict or None
+        Of the undisturbed flight; None if no flight could be planned.
+    trials : tuple of Verdict
+        Of the disturbed flights; none are flown where the undisturbed one fails.
+    failed : str
+        The first crossing that did not happen as planned, and how, in the first flight that failed;
+        or why there is no plan.
     """
 
     cut: str
@@ -93,6 +71,16 @@ class CutOff:
     verdict: Verdict | None
     trials: tuple[Verdict, ...]
     failed: str
+
+    @classmethod
+    def of(cls, chosen: SupportSet, flown: FlownSet | RequirementError) -> CutOff:
+        """A set, and its flights, one of which does not tie the knot; or why it was not flown."""
+        place = str(chosen.cable.cut), chosen.supports
+        if isinstance(flown, RequirementError):
+            return cls(*place, None, (), str(flown))
+        first, *trials = (flight.verdict for flight in flown.flights)
+        amiss = flown.lost.amiss if flown.lost else ""
+        return cls(*place, first, tuple(trials), amiss or AS_PLANNED)
 
     @property
     def robots(self) -> int:
@@ -135,30 +123,22 @@ class FlownResult:
         budget ended, the next one, which was not flown; else without a set.
     cut_off : tuple of CutOff
         In the order in which they were flown.
-    flight : FlightTest or None
-        Of the set that ties.
-    noise : float
-        Standard deviation of every robot's position error in the disturbed flights [m].
-    trials : int
-        Disturbed flights that each set had to tie in, with seeds 1, 2, ...
+    tied : FlownSet or None
+        The set that ties.
+    tests : FlightTests
+        That each set was put to.
     """
 
     status: FlownStatus
     search: CutSearch
     cut_off: tuple[CutOff, ...]
-    flight: FlightTest | None
-    noise: float
-    trials: int
+    tied: FlownSet | None
+    tests: FlightTests
 
     @property
     def result(self) -> MinimalSupports:
         """The solver's set, of the best cut."""
         return self.search.best
-
-    @property
-    def rehearsal(self) -> Rehearsal | None:
-        """The flight of the set that ties."""
-        return self.flight.rehearsal if self.flight else None
 
     @property
     def cut_off_by_robots(self) -> dict[int, int]:
@@ -177,25 +157,21 @@ class FlownResult:
         return self.search.is_proven
 
 
-Fly = Callable[[MinimalSupports], FlightTest]
+Fly = Callable[[MinimalSupports], FlownSet]
 
 
 def solve_flown(
     name: str,
     diagram: GridDiagram,
     requirements: Requirements | None = None,
+    tests: FlightTests | None = None,
     *,
     cuts: Iterable[Cut] | None = None,
-    noise: float = NOISE,
-    trials: int = TRIALS,
-    seconds: float | None = None,
-    max_cut: int | None = None,
     solver: str = DEFAULT,
     limits: Limits | None = None,
     known: Sequence[CutOff] = (),
     fly: Fly | None = None,
     on_cut_off: Callable[[CutOff], None] | None = None,
-    tell: Callable[[str], None] | None = None,
 ) -> FlownResult:
     """The first set, by number of robots, cut and clearance, that ties the knot in simulation.
 
@@ -205,136 +181,97 @@ def solve_flown(
         Of the knot.
     diagram, requirements, cuts, solver, limits
         As for `sets_in_order`; the time limit is for each solve.
-    noise : float
-        Standard deviation of every robot's position error in the disturbed flights [m].
-    trials : int
-        How many disturbed flights must tie the knot, beside the undisturbed one.
-    seconds : float, optional
-        No further set is flown after so much time; the flight at hand is finished [s].
-    max_cut : int, optional
-        No further set is flown once so many are cut off, those known included. 20 unless a budget
-        is given.
+    tests : FlightTests, optional
+        What each set is put to, and how many sets; those known are counted.
     known : sequence of CutOff
         Sets cut off before, which are not flown again.
     fly : callable, optional
-        Flies a set. By default it is rehearsed and flown in physics, see `fly_set`.
+        Flies a set; raises RequirementError where there is no flight. By default it is rehearsed
+        and flown in physics, see `fly_set`.
     on_cut_off : callable, optional
-        Is given each set that is cut off, at once.
-    tell : callable, optional
-        Is told what is being done.
+        Is given each set that is cut off, at once, to keep it.
 
     Raises
     ------
     MissingExtraError
         MuJoCo is not installed (extra `sim`); nothing is solved then.
     RequirementError
-        Noise, trials or a budget that make no sense, or requirements with `max_robots`.
+        Requirements with `max_robots`.
     """
-    _check_numbers(noise, trials, seconds, max_cut)
-    tell = tell or (lambda _: None)
+    tests = tests or FlightTests()
     if fly is None:
-        require_simulation()
+        MUJOCO.require()
 
-        def fly(result: MinimalSupports) -> FlightTest:
-            return fly_set(name, result, noise, trials, tell)
+        def fly(chosen: MinimalSupports) -> FlownSet:
+            return fly_set(name, chosen, tests)
 
-    if max_cut is None and seconds is None:
-        max_cut = MAX_CUT
     began = time.monotonic()
     passed = defaultdict[Cut, list[Supports]](list)
     for each in known:
         passed[Cut.parse(each.cut, diagram.size)].append(each.supports)
     cut_off = list(known)
-
-    def ended(
-        status: FlownStatus, search: CutSearch, flight: FlightTest | None = None
-    ) -> FlownResult:
-        return FlownResult(status, search, tuple(cut_off), flight, noise, trials)
-
     for search in sets_in_order(
         diagram, requirements, cuts=cuts, excluded=passed, solver=solver, limits=limits
     ):
         best = search.best
+        tied: FlownSet | None = None
+        late = tests.seconds is not None and time.monotonic() - began >= tests.seconds
         if not best.found:
             none = search.status is Status.INFEASIBLE
-            return ended(FlownStatus.NO_SET if none else FlownStatus.UNKNOWN, search)
-        late = seconds is not None and time.monotonic() - began >= seconds
-        if late or (max_cut is not None and len(cut_off) >= max_cut):
-            return ended(FlownStatus.BUDGET, search)
-        points = " ".join(f"p{k}" for k in best.supports) or "no supports"
-        tell(f"set {len(cut_off) + 1}: {best.robots} robots, cut {best.cable.cut}, {points}")
-        flight = fly(best)
-        if flight.is_tied:
-            return ended(FlownStatus.TIED, search, flight)
-        cut_off.append(
-            CutOff(str(best.cable.cut), best.supports, flight.verdict, flight.trials, flight.failed)
-        )
-        tell(f"set {len(cut_off)}: cut off: {cut_off[-1].tied_instead}; {flight.failed}")
-        if on_cut_off is not None:
-            on_cut_off(cut_off[-1])
+            status = FlownStatus.NO_SET if none else FlownStatus.UNKNOWN
+        elif late or len(cut_off) >= tests.most_cut:
+            status = FlownStatus.BUDGET
+        else:
+            outcome = _flown(best, fly, len(cut_off) + 1)
+            if isinstance(outcome, CutOff):
+                cut_off.append(outcome)
+                if on_cut_off is not None:
+                    on_cut_off(outcome)
+                continue
+            status, tied = FlownStatus.TIED, outcome
+        return FlownResult(status, search, tuple(cut_off), tied, tests)
     raise AssertionError("sets in order end with a search that found none")
 
 
-def require_simulation() -> None:
-    """Whether sets can be flown here.
-
-    Raises
-    ------
-    MissingExtraError
-        MuJoCo is not installed (extra `sim`).
-    """
-    if importlib.util.find_spec("mujoco") is None:
-        raise MissingExtraError("mujoco", "sim", "flying sets of supports")
+def _flown(chosen: MinimalSupports, fly: Fly, number: int) -> FlownSet | CutOff:
+    """A set that ties the knot in every flight, or why it is cut off."""
+    points = " ".join(f"p{k}" for k in chosen.supports) or "no supports"
+    place = f"{chosen.robots} robots, cut {chosen.cable.cut}, {points}"
+    logger.info("set %d: %s", number, place)
+    flown: FlownSet | RequirementError
+    try:
+        flown = fly(chosen)
+    except RequirementError as error:
+        flown = error
+    else:
+        if flown.is_tied:
+            return flown
+    cut_off = CutOff.of(chosen, flown)
+    logger.info("set %d: cut off: %s; %s", number, cut_off.tied_instead, cut_off.failed)
+    return cut_off
 
 
 def fly_set(
     name: str,
-    result: MinimalSupports,
-    noise: float = NOISE,
-    trials: int = TRIALS,
-    tell: Callable[[str], None] | None = None,
-) -> FlightTest:
-    """Plan a set's flight by rehearsal, fly it undisturbed, then disturbed with seeds 1, 2, ...
+    chosen: SupportSet,
+    tests: FlightTests | None = None,
+    simulator: Simulator = MUJOCO,
+) -> FlownSet:
+    """Plan a set's flight by rehearsal, fly it undisturbed and, if that ties the knot, disturbed.
 
     Raises
     ------
+    RequirementError
+        There is no flight.
     MissingExtraError
-        MuJoCo is not installed (extra `sim`).
+        The simulator is not installed (extra `sim`).
     """
-    try:
-        rehearsal = rehearse_flight(name, result.cable, result.supports, "milp", tell=tell)
-    except RequirementError as error:
-        return FlightTest(None, failed=str(error))
-    flown = [Trial(rehearsal.record, rehearsal.verdict)]
-    if rehearsal.is_tied:
-        disturbances = [Disturbance(noise, seed=seed) for seed in range(1, trials + 1)]
-        flown += fly_trials(rehearsal.plan, disturbances)
-    failed = next((trial for trial in flown if not trial.is_tied), None)
-    verdicts = tuple(trial.verdict for trial in flown)
-    words = "" if failed is None else _first_amiss(rehearsal, failed)
-    return FlightTest(verdicts[0], verdicts[1:], words, rehearsal)
-
-
-def _first_amiss(rehearsal: Rehearsal, trial: Trial) -> str:
-    """The first crossing that a flight did not make as planned."""
-    try:
-        amiss = examine_flight(rehearsal.plan, trial.record).amiss
-    except ValueError:  # positions that are no numbers
-        return "the simulation broke down"
-    if amiss:
-        return amiss[0].sentence
-    return "every crossing happened as planned; where along the spans is not compared"
-
-
-def _check_numbers(noise: float, trials: int, seconds: float | None, max_cut: int | None) -> None:
-    if not (math.isfinite(noise) and noise >= 0):
-        raise RequirementError(f"the noise is a number of metres from 0 up, not {noise:g}")
-    if trials < 1:
-        raise RequirementError(f"the disturbed flights are at least 1, not {trials}")
-    if seconds is not None and not seconds > 0:
-        raise RequirementError(f"the time for flights must be positive, not {seconds:g} s")
-    if max_cut is not None and max_cut < 1:
-        raise RequirementError(f"at least 1 set may be cut off, not {max_cut}")
+    request = FlightRequest(name, "milp")
+    rehearsed = rehearse_flight(chosen.cable, chosen.supports, request, simulator=simulator)
+    if not rehearsed.is_tied:
+        return rehearsed
+    disturbances = (tests or FlightTests()).disturbances
+    return replace(rehearsed, disturbed=fly_trials(rehearsed.plan, disturbances, simulator))
 
 
 def _verdict(content: dict[str, Any]) -> Verdict:

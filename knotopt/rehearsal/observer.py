@@ -3,42 +3,45 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import shapely
 
 from knotopt.arrays import FloatArray
-from knotopt.flight.laid_cable import Laid
+from knotopt.flight.laid_cable import LaidCable
+from knotopt.flight.layout import Letter
 from knotopt.flight.planner import FlightPlanner
 from knotopt.flight.route import SpanRoute
-from knotopt.flight.word import Letter
 from knotopt.sim.simulation import Simulation
 
 LOOSE = 0.5  # end of the tether at the leader that it may fly past [grid steps]
 ARRIVED = 0.2  # from its place, at most: a robot that hovers there [grid steps]
 
 
+@dataclass(frozen=True)
 class Observer:
     """Looks at the cable of a simulation.
 
     Parameters
     ----------
     planner : FlightPlanner
+        Its routes are those flown so far.
     simulation : Simulation
     """
 
-    def __init__(self, planner: FlightPlanner, simulation: Simulation) -> None:
-        self.planner, self.simulation = planner, simulation
+    planner: FlightPlanner
+    simulation: Simulation
 
-    def laid(self, spans: int) -> Laid:
+    def laid(self, spans: int) -> LaidCable:
         """The first spans as they lie; where a robot is not in its place yet, as modelled."""
         planner, simulation = self.planner, self.simulation
-        found = list(planner.modelled(spans).spans)
+        found = list(planner.modelled_cable(spans).spans)
         robots = self._in_plan(simulation.robots)
         arrived = np.linalg.norm(robots - planner.places, axis=1) < ARRIVED
         for i in np.flatnonzero(arrived[:spans] & arrived[1 : spans + 1]).tolist():
             found[i] = self._in_grid(i)
-        return Laid(found)
+        return LaidCable(found)
 
     def tether(self, span: int) -> FloatArray | None:
         """The cable from robot `span` to the leader in plan, but for its end; None if short."""
@@ -49,15 +52,15 @@ class Observer:
         return points[: far[-1] + 1]
 
     def crossed(
-        self, span: int, laid: Laid, done: int, apart: float
+        self, span: int, laid: LaidCable, done: int, apart: float
     ) -> dict[int, list[tuple[float | None, float]]]:
-        """Crossings on the laid spans where they are now: time on the grid, arc length.
+        """Crossings on the laid spans where they are now: rank, arc length.
 
         Parameters
         ----------
         span : int
             That is being flown.
-        laid : Laid
+        laid : LaidCable
         done : int
             Letters of its word that are behind the leader.
         apart : float
@@ -71,11 +74,11 @@ class Observer:
                 places = _places(lines[older - 1], lines[later - 1])
                 if len(places) != len(gates):
                     places = [along for along, _ in gates]
-                times = (first for _, first in gates)
-                found.setdefault(older, []).extend(zip(times, places, strict=True))
+                ranks = (rank for _, rank in gates)
+                found.setdefault(older, []).extend(zip(ranks, places, strict=True))
         word = planner.words[span - 1]
         if 0 < done < len(word) and word[done - 1].older == word[done].older:
-            last, wanted = word[done - 1].first, word[done].first
+            last, wanted = word[done - 1].rank, word[done].rank
             if last is not None and wanted is not None:
                 older = word[done].older
                 tether = shapely.LineString(self._own_cable(span))
@@ -101,11 +104,11 @@ class Observer:
 
 
 def _by_older(route: SpanRoute) -> dict[int, list[tuple[float, float | None]]]:
-    """Arc length and time on the grid of a route's gates, in order, for each span crossed."""
+    """Arc length and rank of a route's gates, in order, for each span crossed."""
     found: dict[int, list[tuple[float, float | None]]] = {}
     for passage in sorted(route.passages, key=lambda each: each.gate.along):
         letter: Letter = passage.gate.letter
-        found.setdefault(letter.older, []).append((passage.gate.along, letter.first))
+        found.setdefault(letter.older, []).append((passage.gate.along, letter.rank))
     return found
 
 

@@ -7,7 +7,8 @@ simulation goes back and other shapes of the way are tried.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import logging
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,15 +16,19 @@ import numpy as np
 from knotopt.arrays import FloatArray
 from knotopt.cable.cable import Cable
 from knotopt.errors import RequirementError
-from knotopt.flight.limits import RANGES, ROOM, FlightLimits
-from knotopt.flight.plan import FlightPlan
-from knotopt.flight.planner import SCHEDULES, FlightPlanner
-from knotopt.flight.record import Disturbance, FlightRecord
+from knotopt.flight.grid_layout import layout_of_supports
+from knotopt.flight.limits import RANGES
+from knotopt.flight.plan import MotionPlan, with_supports
+from knotopt.flight.planner import FlightPlanner
+from knotopt.flight.record import Disturbance
+from knotopt.flight.request import FlightRequest
 from knotopt.flight.route import SpanShape
-from knotopt.path.world import World
 from knotopt.rehearsal.attempt import SHAPES, RehearsedFlight
-from knotopt.sim.judge import Outcome, Verdict
+from knotopt.rehearsal.flown_set import FlownSet
+from knotopt.sim.simulators import MUJOCO, Simulator
 from knotopt.sim.trials import fly_trial, fly_trials
+
+logger = logging.getLogger(__name__)
 
 TRIALS = tuple(Disturbance(noise=0.01, seed=seed) for seed in (101, 102, 103))
 """Disturbances that a plan is tried in before it is taken."""
@@ -48,112 +53,56 @@ MORE = 1.1  # cable of a span where robots got stuck
 
 
 @dataclass(frozen=True)
-class Rehearsal:
-    """What came of planning by rehearsal.
+class _Candidate:
+    """A flight that may be taken, the planner of its routes, and the cable if it was rehearsed."""
 
-    Attributes
-    ----------
-    plan : FlightPlan
-        Its schedule is "rehearsed" where the optimised one did not tie the knot.
-    record : FlightRecord
-    verdict : Verdict
-        Of the plan flown without disturbance.
-    robust : int
-        Of the `TRIALS` disturbed flights it was tried in, how many tied the knot. The plan was
-        chosen by these: its success rate is for other disturbances to tell.
-    separation : float
-        Least distance of two robots, 1 on the ellipsoid of the limits.
-    steady : float
-        Duration of the same flight at one path speed throughout [s].
-    failed : tuple of str
-        Crossings that no way tried made happen, in the order of flight.
-    rehearsals, ways : int
-        Flights begun anew, and ways from crossing to crossing that were simulated; none where a
-        modelled route is flown.
-    """
-
-    plan: FlightPlan
-    record: FlightRecord
-    verdict: Verdict
-    robust: int
-    separation: float
-    steady: float
-    failed: tuple[str, ...]
-    rehearsals: int
-    ways: int
+    flown: FlownSet
+    planner: FlightPlanner
+    lengths: FloatArray | None = None
 
     @property
-    def is_tied(self) -> bool:
-        """Whether the undisturbed flight ties the knot wanted."""
-        return self.verdict.outcome is Outcome.TIED
-
-    @property
-    def against(self) -> str:
-        """What speaks against flying it, "" if nothing does."""
-        if not self.is_tied:
-            return str(self.verdict)
-        if self.separation < 1:
-            return f"robots come within {self.separation:.2f} of their separation"
-        return ""
-
-    def noted(self, *notes: str) -> Rehearsal:
-        """The rehearsal with further notes of its plan."""
-        return replace(self, plan=self.plan.noted(*notes))
-
-    @property
-    def rank(self) -> tuple[bool, bool, int, int]:
-        """Larger is better: tied, robots apart, robust, few crossings failed."""
-        return self.is_tied, self.separation >= 1, self.robust, -len(self.failed)
+    def is_robust(self) -> bool:
+        """Whether it ties the knot whatever disturbs it."""
+        return self.flown.robust == len(TRIALS)
 
 
-class _Judge:
-    """Flies plans, undisturbed and disturbed, and keeps the best.
+@dataclass(frozen=True)
+class _Task:
+    """A set of supports, to be flown as requested."""
 
-    Parameters
-    ----------
-    tell : callable
-        Is told what came of each.
-    """
-
-    def __init__(self, tell: Callable[[str], None]) -> None:
-        self.tell = tell
-        self.best: Rehearsal | None = None
+    cable: Cable
+    supports: tuple[int, ...]
+    request: FlightRequest
+    simulator: Simulator
 
     def fly(
-        self,
-        what: str,
-        plan: FlightPlan,
-        planner: FlightPlanner,
-        steady: float,
-        failed: tuple[str, ...] = (),
-    ) -> Rehearsal:
-        """Fly a plan of the planner's routes; `failed` are crossings that were given up."""
-        trial = fly_trial(plan)
-        robust = sum(each.is_tied for each in fly_trials(plan, TRIALS)) if trial.is_tied else 0
-        separation = planner.formation().separation
-        found = Rehearsal(
-            plan, trial.record, trial.verdict, robust, separation, steady, failed, 0, 0
+        self, what: str, motion: MotionPlan, planner: FlightPlanner, lengths: FloatArray | None
+    ) -> _Candidate:
+        """Fly a motion on the planner's routes, undisturbed and, if that ties, disturbed."""
+        name, chosen_by = self.request.name, self.request.chosen_by
+        plan = with_supports(motion, name, self.cable, self.supports, chosen_by)
+        flight = fly_trial(plan, simulator=self.simulator)
+        robust, disturbed = 0, ""
+        if flight.is_tied:
+            robust = sum(each.is_tied for each in fly_trials(plan, TRIALS, self.simulator))
+            disturbed = f"; disturbed {robust} of {len(TRIALS)}"
+        logger.info("%s, %s schedule: %s%s", what, plan.schedule, flight.verdict, disturbed)
+        flown = FlownSet(
+            flight,
+            robust=robust,
+            separation=planner.formation().separation,
+            steady=planner.motion("fixed", lengths).duration,
         )
-        self.tell(
-            f"{what}, {plan.schedule} schedule: {trial.verdict}"
-            + (f"; disturbed {robust} of {len(TRIALS)}" if trial.is_tied else "")
-        )
-        if self.best is None or found.rank > self.best.rank:
-            self.best = found
-        return found
+        return _Candidate(flown, planner, lengths)
 
 
 def rehearse_flight(
-    name: str,
     cable: Cable,
     supports: tuple[int, ...],
-    chosen_by: str = "all",
-    world: World = ROOM,
-    limits: FlightLimits | None = None,
-    schedule: str = "optimised",
-    tell: Callable[[str], None] | None = None,
+    request: FlightRequest,
     attempts: int = 6,
-) -> Rehearsal:
+    simulator: Simulator = MUJOCO,
+) -> FlownSet:
     """Plan a flight, span by span, past the cable as it lies in a simulation.
 
     With a robot at every turning point modelled routes are tried first, in a wider file and with
@@ -162,110 +111,99 @@ def rehearse_flight(
 
     Parameters
     ----------
-    name, cable, supports, chosen_by, world, limits, schedule
-        As for `knotopt.flight.planner.plan_flight`.
-    tell : callable, optional
-        Is told what is being flown.
+    cable : Cable
+    supports : tuple of int
+        Turning points with a support robot (1-based).
+    request : FlightRequest
     attempts : int
         Flights that are begun anew at most, until one ties the knot whatever disturbs it.
+    simulator : Simulator
 
     Raises
     ------
     RequirementError
         Limits that no flight keeps.
     MissingExtraError
-        MuJoCo is not installed (extra `sim`).
+        The simulator is not installed (extra `sim`).
     """
-    if schedule not in SCHEDULES:
-        raise RequirementError(f"a schedule is one of {', '.join(SCHEDULES)}, not {schedule!r}")
     if attempts < 1:
         raise RequirementError(f"a flight is rehearsed once or more, not {attempts} times")
-    limits = limits or FlightLimits()
-    judge = _Judge(tell or (lambda _: None))
+    task = _Task(cable, supports, request, simulator)
+    planner = FlightPlanner(layout_of_supports(cable, supports), request.world, request.limits)
+    best: _Candidate | None = None
     if len(supports) == len(cable.path) - 2:
-        safe = _fly_modelled(judge, cable, supports, world, limits, (name, chosen_by), schedule)
-        if safe is not None:
-            return safe
-    planner = FlightPlanner(cable, supports, world, limits)
-    planner.plan_routes(SHAPES[0])
-    modelled = list(planner.spans)
-    crosses = np.array([len(word) > 0 for word in planner.words])
-    more = np.ones(len(crosses))  # cable, where robots got stuck
-    ways = 0
-    flown: tuple[FlightPlanner, FloatArray] | None = None  # of the best rehearsal
-    for number, (spare, first) in enumerate(ATTEMPTS[:attempts], 1):
-        planner.spans[:] = modelled
-        shapes = SHAPES[first:] + SHAPES[:first]
-        run = RehearsedFlight(planner, np.where(crosses, spare, 1.0) * more, shapes, judge.tell)
-        stuck = run.fly()
-        if stuck is not None:
-            more[stuck - 1] *= MORE
-        ways += run.ways
-        plans = [run.rehearsed(name, chosen_by)]
-        steady = planner.plan(name, chosen_by, "fixed", run.lengths).duration
-        if stuck is None:
-            plans.insert(0, planner.plan(name, chosen_by, schedule, run.lengths))
-        for plan in plans:
-            found = judge.fly(f"rehearsal {number}", plan, planner, steady, tuple(run.failed))
-            if found.robust == len(TRIALS) and found.separation >= 1:
-                return replace(found, rehearsals=number, ways=ways)
-            if judge.best is found:
-                flown = planner.copy(), run.lengths
-        if found.separation < 1:
-            planner.spacing *= WIDEN
-    assert judge.best is not None
-    if judge.best.is_tied and judge.best.separation < 1 and flown is not None:
-        _fly_from_farther(judge, *flown, (name, chosen_by), schedule)
-    return replace(judge.best, rehearsals=len(ATTEMPTS[:attempts]), ways=ways)
+        for candidate in _on_modelled_routes(task, planner):
+            if candidate.is_robust:
+                return candidate.flown
+            best = _better(best, candidate)
+    for candidate in _rehearsed(task, planner, attempts):
+        if candidate.is_robust and candidate.flown.separation >= 1:
+            return candidate.flown
+        best = _better(best, candidate)
+        effort = candidate.flown.rehearsals, candidate.flown.ways
+    assert best is not None
+    if best.flown.is_tied and best.flown.separation < 1 and best.lengths is not None:
+        for candidate in _from_farther(task, best.planner, best.lengths):
+            flown = replace(candidate.flown, given_up=best.flown.given_up)
+            best = _better(best, replace(candidate, flown=flown))
+    return replace(best.flown, rehearsals=effort[0], ways=effort[1])
 
 
-def _fly_modelled(
-    judge: _Judge,
-    cable: Cable,
-    supports: tuple[int, ...],
-    world: World,
-    limits: FlightLimits,
-    about: tuple[str, str],
-    schedule: str,
-) -> Rehearsal | None:
-    """The first modelled route that ties the knot whatever disturbs it, if there is one."""
+def _better(best: _Candidate | None, other: _Candidate) -> _Candidate:
+    return other if best is None or other.flown.rank > best.flown.rank else best
+
+
+def _on_modelled_routes(task: _Task, planner: FlightPlanner) -> Iterator[_Candidate]:
+    """Flights on modelled routes, with a robot at every turning point."""
+    limits = planner.limits
     for widening, share, shape in MODELLED:
         spacing = min(widening * limits.spacing, RANGES["spacing"][1])
         slack = share * limits.slack
-        planner = FlightPlanner(
-            cable, supports, world, replace(limits, spacing=spacing, slack=slack)
-        )
-        planner.plan_routes(shape)
-        plan = planner.plan(*about, schedule)
-        steady = planner.plan(*about, "fixed").duration
-        found = judge.fly(
-            f"modelled route, spacing {spacing:g} m, slack {slack:g}", plan, planner, steady
-        )
-        if found.robust == len(TRIALS):
-            return found
-    return None
+        changed = replace(planner, limits=replace(limits, spacing=spacing, slack=slack))
+        planned = changed.with_routes(shape).spaced_out()
+        what = f"modelled route, spacing {spacing:g} m, slack {slack:g}"
+        yield task.fly(what, planned.motion(task.request.schedule), planned, None)
 
 
-def _fly_from_farther(
-    judge: _Judge,
-    planner: FlightPlanner,
-    lengths: FloatArray,
-    about: tuple[str, str],
-    schedule: str,
-) -> None:
-    """Fly a rehearsed route once more in files that are longer until the robots keep apart.
+def _rehearsed(task: _Task, planner: FlightPlanner, attempts: int) -> Iterator[_Candidate]:
+    """Rehearsals, each flown by the schedule requested, if it got to the end, and as rehearsed."""
+    modelled = planner.with_routes(SHAPES[0])
+    crosses = np.array([len(word) > 0 for word in planner.words])
+    more = np.ones(len(crosses))  # cable, where robots got stuck
+    ways = 0
+    for number, (spare, first) in enumerate(ATTEMPTS[:attempts], 1):
+        shapes = SHAPES[first:] + SHAPES[:first]
+        cable = np.where(crosses, spare, 1.0) * more
+        run = RehearsedFlight(modelled, cable, shapes, task.simulator)
+        stuck = run.fly()
+        ways += run.ways
+        motions = [run.motion()]
+        if stuck is None:
+            motions.insert(0, run.planner.motion(task.request.schedule, run.lengths))
+        else:
+            more[stuck - 1] *= MORE
+        for motion in motions:
+            found = task.fly(f"rehearsal {number}", motion, run.planner, run.lengths)
+            flown = replace(found.flown, given_up=tuple(run.given_up), rehearsals=number, ways=ways)
+            yield replace(found, flown=flown)
+        wider = WIDEN if found.flown.separation < 1 else 1.0
+        modelled = modelled.with_spacing(wider * run.planner.spacing)
+
+
+def _from_farther(task: _Task, planner: FlightPlanner, lengths: FloatArray) -> Iterator[_Candidate]:
+    """A rehearsed route flown once more in files that are longer until the robots keep apart.
 
     The leader's way and its crossings stay; the robots behind are elsewhere when it comes back.
     """
-    failed, flights = judge.best.failed if judge.best else (), 0
+    flights = 0
     for _ in range(FILES):
-        planner.start_farther(FARTHER)
+        planner = planner.started_farther(FARTHER)
         formation = planner.formation()
         if formation.separation < 1 or (formation.farthest > lengths).any():
             continue
-        plan = planner.plan(*about, schedule, lengths)
-        steady = planner.plan(*about, "fixed", lengths).duration
-        found = judge.fly(f"spacing {planner.spacing:.2f} m", plan, planner, steady, failed)
+        motion = planner.motion(task.request.schedule, lengths)
+        found = task.fly(f"spacing {planner.spacing:.2f} m", motion, planner, lengths)
+        yield found
         flights += 1
-        if found.robust == len(TRIALS) or flights == FLOWN:
+        if found.is_robust or flights == FLOWN:
             return

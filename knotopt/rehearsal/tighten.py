@@ -7,7 +7,7 @@ as fast as cable draws them. Their ways, smoothed, become part of the plan.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import logging
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,11 +19,15 @@ from knotopt.arrays import FloatArray
 from knotopt.cable.cable import Cable
 from knotopt.errors import RequirementError
 from knotopt.flight.plan import FlightPlan
-from knotopt.flight.planner import INTERVAL, kept, sample_times
+from knotopt.flight.planner import INTERVAL, sample_times, with_margin
 from knotopt.path.world import World
-from knotopt.rehearsal.rehearse import TRIALS, Rehearsal
-from knotopt.sim.simulation import FRAME_TIME, PROGRESS, Simulation
+from knotopt.rehearsal.flown_set import FlownSet
+from knotopt.rehearsal.rehearse import TRIALS
+from knotopt.sim.simulation import FRAME_TIME, PROGRESS
+from knotopt.sim.simulators import MUJOCO, Simulator
 from knotopt.sim.trials import fly_trial, fly_trials
+
+logger = logging.getLogger(__name__)
 
 PACE = 0.2  # of each end [m/s], at most half of what robots may fly
 APART = 1.05  # of their separation that robots keep
@@ -55,24 +59,21 @@ def check_tightening(cable: Cable, apart: float, world: World) -> None:
         )
 
 
-def tighten_flight(
-    rehearsal: Rehearsal, apart: float, tell: Callable[[str], None] | None = None
-) -> Rehearsal:
+def tighten_flight(flown: FlownSet, apart: float, simulator: Simulator = MUJOCO) -> FlownSet:
     """Pull the knot of a rehearsed flight tight after it.
 
     Parameters
     ----------
-    rehearsal : Rehearsal
+    flown : FlownSet
     apart : float
         That the ends get at most [m]. They stop earlier, and a note of the plan says why, where
         two robots come near their separation or the cable holds.
-    tell : callable, optional
-        Is told what is being flown.
+    simulator : Simulator
 
     Returns
     -------
-    Rehearsal
-        Its plan has a `tightening`, its record and verdict are of the whole flight; `robust` too.
+    FlownSet
+        Its plan has a `tightening`, its undisturbed flight is the whole one; `robust` too.
         The flight as it was, with a note, if it does not tie the knot, or no pull keeps it tied.
 
     Raises
@@ -80,28 +81,27 @@ def tighten_flight(
     RequirementError
         As `check_tightening` raises it.
     """
-    plan = rehearsal.plan
+    plan = flown.plan
     check_tightening(plan.cable, apart, plan.world)
-    if not rehearsal.is_tied:
-        return rehearsal.noted("not pulled tight: the flight does not tie the knot")
-    tell = tell or (lambda _: None)
-    tell("pulling tight")
-    pull = _pull(plan, apart)
+    if not flown.is_tied:
+        return flown.noted("not pulled tight: the flight does not tie the knot")
+    logger.info("pulling tight")
+    pull = _pull(plan, apart, simulator)
     for share in SHARES:
         tightened = _tightened(plan, pull.ways[: max(2, round(share * len(pull.ways)))])
-        trial = fly_trial(tightened)
-        robust = sum(each.is_tied for each in fly_trials(tightened, TRIALS))
-        tell(f"{share:g} of the pull: {trial.verdict}; disturbed {robust} of {len(TRIALS)}")
-        if trial.is_tied and robust >= rehearsal.robust:
+        flight = fly_trial(tightened, simulator=simulator)
+        robust = sum(each.is_tied for each in fly_trials(tightened, TRIALS, simulator))
+        logger.info(
+            "%g of the pull: %s; disturbed %d of %d", share, flight.verdict, robust, len(TRIALS)
+        )
+        if flight.is_tied and robust >= flown.robust:
             break
     else:
-        return rehearsal.noted("not pulled tight: no pull keeps the knot")
-    found = replace(
-        rehearsal, plan=tightened, record=trial.record, verdict=trial.verdict, robust=robust
-    )
+        return flown.noted("not pulled tight: no pull keeps the knot")
+    tight = replace(flown, undisturbed=flight, robust=robust)
     why = pull.why if share == 1 else "farther it is not the knot"
     pulled = f"the ends are pulled {tightened.ends_apart[1]:.2f} m apart, not {apart:g} m"
-    return found.noted(f"{pulled}: {why}") if why else found
+    return tight.noted(f"{pulled}: {why}") if why else tight
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,9 +112,9 @@ class _Pull:
     why: str
 
 
-def _pull(plan: FlightPlan, apart: float) -> _Pull:
+def _pull(plan: FlightPlan, apart: float, simulator: Simulator) -> _Pull:
     """Fly the plan, then the ends away from each other until something stops them."""
-    simulation = Simulation(
+    simulation = simulator.start(
         plan.positions[0], plan.lengths, step=plan.world.step, speed=plan.limits.speed
     )
     simulation.follow(plan.positions, plan.interval)
@@ -160,7 +160,7 @@ def _tightened(plan: FlightPlan, ways: FloatArray) -> FlightPlan:
     places = middle + np.minimum(1.0, TAUT / most)[:, None, None] * (places - middle)
     smooth = gaussian_filter1d(places, SMOOTH / FRAME_TIME, axis=0, mode="nearest")
     curve = CubicSpline(FRAME_TIME * np.arange(len(smooth)), smooth, bc_type="clamped")
-    speed, acceleration = kept(plan.limits)
+    speed, acceleration = with_margin(plan.limits)
     at = curve.x
     slower = max(
         1.0,

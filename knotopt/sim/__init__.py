@@ -1,1 +1,1 @@
-"""Flights in physics (extra `sim`). MuJoCo is imported when a flight is first simulated."""
+"""Flights in physics (extra `sim`). A simulator's package is imported when a flight is flown."""

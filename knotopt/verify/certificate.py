@@ -27,7 +27,7 @@ FORMAT = "knotopt certificate 1"
 
 
 @dataclass(frozen=True)
-class Verdict:
+class CheckedCertificate:
     """What a certificate was found to prove.
 
     Attributes
@@ -58,7 +58,7 @@ class Verdict:
     grid: tuple[Cell, ...]
 
 
-def check_certificate(text: str) -> Verdict:
+def check_certificate(text: str) -> CheckedCertificate:
     """Check a certificate from the definitions alone.
 
     Raises
@@ -110,7 +110,7 @@ def check_certificate(text: str) -> Verdict:
         raise CertificateError(
             f"the bound is claimed for every cut, but none is given for {missing}"
         )
-    return Verdict(
+    return CheckedCertificate(
         field(certificate, "knot", str),
         formulation,
         mode,

@@ -1,4 +1,4 @@
-"""A flight as one page that needs nothing else: `report.html`.
+"""A flight as one page that needs nothing else: `viewer.html`.
 
 The scene is drawn by a few hundred lines on a canvas, with the page's own perspective: lines and
 dots sorted by depth are all there is to show, and a 3-D library would be most of the file.

@@ -5,12 +5,14 @@ from __future__ import annotations
 import sys
 from dataclasses import fields, replace
 from pathlib import Path
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from knotopt.atlas import flights
 from knotopt.atlas.engine import Local
-from knotopt.atlas.flights import Flown, fly_set
+from knotopt.atlas.flights import fly_set, fly_sets
 from knotopt.atlas.measure import KnotResult, measure_knot
 from knotopt.atlas.optional_rows import FlightRow, FlightTimesRow
 from knotopt.atlas.report.flights import OUTCOMES, agreement_table, tied_table
@@ -23,22 +25,35 @@ from knotopt.atlas.store import read_manifest, read_rows
 from knotopt.cable.cable import Cable
 from knotopt.catalogue.lookup import find_knot
 from knotopt.errors import MissingExtraError, RequirementError
-from knotopt.sim.trials import wilson_interval
+from knotopt.sim.judge import Outcome, Verdict
+from knotopt.sim.trials import Flight, wilson_interval
+from knotopt.supports.lcf import lcf
+from knotopt.supports.requirements import Formulation
 from tests.conftest import Cli
 from tests.small_atlas import LIST, Replay, contents
+from tests.small_flight import small_plan, small_record
 
 Supports = tuple[int, ...]
 SETTINGS = Settings(span=True, check=0, physics=True)
-FLOWN = Flown(True, True, "", 1.0, 2.0, "tied", "tied: 3_1", 30.0, 1.1, 0.03, 0.2, 9.0)
-LOST = replace(FLOWN, tied=False, why="crossing 2", outcome="wrong knot", verdict="wrong knot: ...")
-UNPLANNED = Flown(False, False, "no way", 1.0)
+PLAN = small_plan()
+FLOWN = Flight(PLAN, small_record(PLAN), Verdict(Outcome.TIED, "3_1", True, True, "1 - t + t^2"))
+LOST = replace(FLOWN, verdict=Verdict(Outcome.WRONG_KNOT, "unknot", False, True, "1"))
 
 
-def stub(_: str, cable: Cable, supports: Supports) -> Flown:
+def stub(_: str, cable: Cable, supports: Supports) -> tuple[Flight | str, tuple[float, float]]:
     """Small sets do not tie; one cut has no plan for them."""
     if len(supports) > 4:
-        return FLOWN
-    return UNPLANNED if str(cable.cut) == "L-" else LOST
+        return FLOWN, (1.0, 2.0)
+    return ("no way", (1.0, 0.0)) if str(cable.cut) == "L-" else (LOST, (1.0, 2.0))
+
+
+def only_row(monkeypatch: pytest.MonkeyPatch, flown: Flight | str) -> FlightRow:
+    """The row of LCF's set for the trefoil, flown like that."""
+    knot = LIST[0]
+    monkeypatch.setattr(flights, "fly_set", lambda *_: (flown, (1.0, 2.0)))
+    programs = {Formulation.OPENING: SimpleNamespace(supports=None, allows=lambda _: True)}
+    (row,), _ = fly_sets(knot, lcf(Cable(knot.diagram, "L+")), programs)
+    return row
 
 
 @pytest.fixture(scope="module")
@@ -60,13 +75,14 @@ def results(folder: Path) -> Results:
     return read_results(folder)
 
 
-def test_a_set_that_ties() -> None:
-    flown = fly_set("3_1", Cable(find_knot("3_1").diagram, "L-"), (3, 4, 5))
-    assert (flown.planned, flown.tied, flown.outcome) == (True, True, "tied")
-    assert (flown.verdict, flown.why) == ("tied: 3_1", "")
-    measures = (flown.flight_seconds, flown.separation, flown.strand_distance, flown.cable_length)
+def test_a_set_that_ties(monkeypatch: pytest.MonkeyPatch) -> None:
+    flown, seconds = fly_set("3_1", Cable(find_knot("3_1").diagram, "L-"), (3, 4, 5))
+    assert isinstance(flown, Flight) and min(seconds) > 0
+    row = only_row(monkeypatch, flown)
+    assert (row.planned, row.tied, row.outcome) == (True, True, "tied")
+    assert (row.verdict, row.why) == ("tied: 3_1", "")
+    measures = (row.flight_seconds, row.separation, row.strand_distance, row.cable_length)
     assert all(value is not None and value > 0 for value in measures)
-    assert min(flown.planning_seconds, flown.simulation_seconds) > 0
 
 
 def test_a_set_without_a_plan(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -74,24 +90,17 @@ def test_a_set_without_a_plan(monkeypatch: pytest.MonkeyPatch) -> None:
         raise RequirementError("no way for span 4")
 
     monkeypatch.setattr(flights, "plan_flight", refuse)
-    flown = fly_set("3_1", Cable(find_knot("3_1").diagram, "L-"), (3,))
-    assert (flown.planned, flown.tied, flown.why) == (False, False, "no way for span 4")
-    assert flown.outcome is flown.flight_seconds is flown.tension is None
+    flown, seconds = fly_set("3_1", Cable(find_knot("3_1").diagram, "L-"), (3,))
+    assert flown == "no way for span 4" and seconds[0] > seconds[1] == 0
+    row = only_row(monkeypatch, flown)
+    assert (row.planned, row.tied, row.why) == (False, False, "no way for span 4")
+    assert row.outcome is row.flight_seconds is row.tension is row.separation is None
 
 
 def test_a_flight_that_cannot_be_examined(monkeypatch: pytest.MonkeyPatch) -> None:
-    class Trial:
-        is_tied = False
-        verdict = record = type("Any", (), {"outcome": "unsound", "smallest_distance": 0.0})()
-        record.largest_tension = 1.0
-
-    def broken(*_: object) -> None:
-        raise ValueError("nan")
-
-    monkeypatch.setattr(flights, "fly_trial", lambda _: Trial())
-    monkeypatch.setattr(flights, "examine_flight", broken)
-    flown = fly_set("3_1", Cable(find_knot("3_1").diagram, "L-"), (3, 4, 5))
-    assert (flown.separation, flown.why) == (None, "the simulation broke down")
+    broken = replace(LOST.record, cable=np.full_like(LOST.record.cable, np.nan))
+    row = only_row(monkeypatch, replace(LOST, record=broken))
+    assert (row.planned, row.separation, row.why) == (True, None, "the simulation broke down")
 
 
 def test_rows(folder: Path, found: dict[int, KnotResult]) -> None:
@@ -118,9 +127,9 @@ def test_rows(folder: Path, found: dict[int, KnotResult]) -> None:
 def test_equal_sets_fly_once(monkeypatch: pytest.MonkeyPatch) -> None:
     flown: list[tuple[str, Supports]] = []
 
-    def count(_: str, cable: Cable, supports: Supports) -> Flown:
+    def count(_: str, cable: Cable, supports: Supports) -> tuple[Flight, tuple[float, float]]:
         flown.append((str(cable.cut), supports))
-        return FLOWN
+        return FLOWN, (1.0, 2.0)
 
     monkeypatch.setattr(flights, "fly_set", count)
     result = measure_knot(LIST[0], SETTINGS)

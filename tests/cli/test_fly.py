@@ -14,8 +14,8 @@ import pytest
 
 from knotopt.export.waypoints import read_waypoints
 from knotopt.flight.plan import FlightPlan
+from knotopt.flight.plan_file import read_plan
 from knotopt.flight.planner import FlightPlanner, plan_flight
-from knotopt.flight.store import read_plan
 from knotopt.mission import alternatives
 from tests.conftest import Cli
 
@@ -25,7 +25,7 @@ FILES = {
     "flight.png",
     "fly.py",
     "plan.json",
-    "report.html",
+    "viewer.html",
     "waypoints.csv",
 }
 
@@ -93,7 +93,7 @@ def test_without_extras(cli: Cli, tmp_path: Path) -> None:
     assert re.search(r"no pictures: .* needs matplotlib.*pip install 'knotopt\[viz\]'", out)
     assert names(tmp_path / "bare") == FILES - {"flight.png"} | robots(5)
     status, out, err = cli("fly", "3", "--sim", "--out", tmp_path / "none")
-    assert status == 1 and not out and "--sim needs mujoco" in err
+    assert status == 1 and not out and "simulating a flight needs mujoco" in err
     assert "pip install 'knotopt[sim]'" in err and names(tmp_path) == {"bare"}
 
 
@@ -103,7 +103,7 @@ def test_an_interrupt_leaves_nothing(cli: Cli, tmp_path: Path, when: str) -> Non
         raise KeyboardInterrupt
 
     if when == "planning":
-        cli.monkeypatch.setattr(FlightPlanner, "plan", interrupted)
+        cli.monkeypatch.setattr(FlightPlanner, "motion", interrupted)
     else:
         cli.monkeypatch.setattr("os.fsync", interrupted)
     status, out, _ = cli("fly", "3", "--out", tmp_path / "new" / "flight")
@@ -187,7 +187,7 @@ def test_a_flight_in_physics(cli: Cli, tmp_path: Path) -> None:
     assert check["undisturbed"]["outcome"] == "tied" and check["rehearsal"]["robust"] == 3
     assert [row["result"] for row in check["undisturbed"]["crossings"]] == ["as planned"] * 3
     assert [each["seed"] for each in check["disturbed"]] == [7, 8] and check["tied"] == 0
-    page = (folder / "report.html").read_text()
+    page = (folder / "viewer.html").read_text()
     assert "Crossings as executed" in page and "seed 7" in page and "pulling tight" in page
     plan = read_plan(folder / "plan.json")
     assert check["tightening"] == plan.tightening > 5 and check["ends_apart"][1] > 4.9

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import json
+import logging
 import sys
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from knotopt.rehearsal import cut_off
-from knotopt.rehearsal.cut_off import FlightTest
+from knotopt.rehearsal.flight_tests import FlightTests
+from knotopt.rehearsal.flown_set import FlownSet
 from knotopt.sim.judge import Outcome, Verdict
+from knotopt.sim.simulators import Simulator
 from knotopt.supports.minimal import MinimalSupports
 from tests.conftest import Cli
+from tests.small_flight import flown_set
 
 TIED = Verdict(Outcome.TIED, "3_1", True, True, "1 - t + t^2")
 LOST = Verdict(Outcome.WRONG_KNOT, "unknot", False, True, "1")
@@ -27,27 +30,25 @@ class Flights:
         self.lost, self.stop_at = lost, 1000
         self.flown: list[tuple[str, tuple[int, ...]]] = []
 
-    def __call__(
-        self, name: str, result: MinimalSupports, noise: float, trials: int, tell: Any
-    ) -> FlightTest:
+    def __call__(self, name: str, result: MinimalSupports, tests: FlightTests) -> FlownSet:
         if len(self.flown) == self.stop_at:
             self.stop_at = 1000
             raise KeyboardInterrupt
         self.flown.append((str(result.cable.cut), result.supports))
-        tell("span 3 over span 1: as planned")
-        assert name == "3_1" and (noise, trials) in ((0.01, 3), (0.02, 1))
+        logging.getLogger("knotopt.rehearsal.attempt").info("span 3 over span 1: as planned")
+        assert name == "3_1" and (tests.noise, tests.trials) in ((0.01, 3), (0.02, 1))
         if len(self.flown) > self.lost:
-            return FlightTest(TIED, (TIED,) * trials)
+            return flown_set(TIED, *(TIED,) * tests.trials)
         if len(self.flown) % 2:
-            return FlightTest(LOST, (), "span 4 under span 1: missing: never crossed")
-        return FlightTest(TIED, (LOST, *(TIED,) * (trials - 1)), "span 4 under span 1: missing")
+            return flown_set(LOST)
+        return flown_set(TIED, LOST, *(TIED,) * (tests.trials - 1))
 
 
 @pytest.fixture
 def flights(monkeypatch: pytest.MonkeyPatch) -> Flights:
     made_up = Flights(2)
     monkeypatch.setattr(cut_off, "fly_set", made_up)
-    monkeypatch.setattr(cut_off, "require_simulation", lambda: None)
+    monkeypatch.setattr(Simulator, "require", lambda _: None)
     return made_up
 
 
@@ -64,7 +65,7 @@ def test_a_set_that_ties(cli: Cli, flights: Flights, tmp_path: Path) -> None:
     assert "cut off in flight 1 of 5 robots, 1 of 6 robots" in said
     assert "no set of 5 robots is open on this cut but for 1 cut off" in said
     assert "tied in simulation undisturbed and in 3 of 3 flights with noise of 0.01 m" in said
-    assert "wrong knot: unknot" in said and "span 4 under span 1: missing: never crossed" in said
+    assert "wrong knot: unknot" in said and "span 4 over span 1: never crossed" in said
     assert (
         "Proven: no set of fewer than 6 robots meets the rows of `span` on this cut, but for 1 "
         "cut off." in said

@@ -47,7 +47,7 @@ def test_commands_of_the_tutorial(
     for command, shown in told:
         _, out, _ = cli(*shlex.split(command))
         expect_shown(command, shown, out)
-    assert (tmp_path / "trefoil/report.html").exists()
+    assert (tmp_path / "trefoil/viewer.html").exists()
 
 
 def _scratch(folder: Path, page: Path) -> dict[str, str]:

@@ -11,10 +11,11 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from knotopt.arrays import FloatArray
+from knotopt.flight.gates import Gate, RouteShape
 from knotopt.flight.laid_cable import hanging_cable
+from knotopt.flight.layout import Letter
 from knotopt.flight.route import HeightShape, Passage, SpanRoute, build_route
-from knotopt.flight.router import Router, RouteShape, Way
-from knotopt.flight.word import Letter
+from knotopt.flight.router import Router, Way
 
 SHAPE = RouteShape()
 
@@ -279,3 +280,22 @@ def test_a_route_passes_its_gates_at_their_heights_and_its_robots_at_zero() -> N
     # Cable from robot 4 to the leader is at least as long as the leader ever is away.
     away = np.linalg.norm(way.points - places[3], axis=1).max()
     assert spans[-1].tether >= away - 1e-9
+
+
+def test_a_place_that_is_passed_twice_has_two_gates_in_order() -> None:
+    """Under the first span and, turning round, back over it at the same place."""
+    places = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [1.0, 3.0]])
+    there = Gate(Letter(1, False, -1, None), (2.0, 0.0), (0.0, -1.0), 0.6, 2.0)
+    back = Gate(Letter(1, True, 1, None), (2.0, 0.0), (0.0, 1.0), 0.6, 2.0)
+    way = np.array([[4.0, 3.0], [2.0, 0.6], [2.0, 0.0], [2.0, -0.6], [2.2, -0.9], [2.0, -0.6]])
+    way = np.concatenate((way, [[2.0, 0.0], [2.0, 0.6], [1.0, 3.0]]))
+    span = SpanRoute(way, (Passage(there, -0.3, -1.5), Passage(back, -0.3, 0.6)))
+    route = build_route(
+        np.array([-3.0, 0.0]), [*(SpanRoute(ends, ()) for ends in laid_spans(places[:3])), span]
+    )
+    heights = np.interp(route.passed, route.along, route.points[:, 2])
+    assert heights == pytest.approx([-1.5, 0.6], abs=0.1)
+    turn = 2 * (0.6 + float(np.hypot(0.2, 0.3)))
+    assert route.passed[1] - route.passed[0] == pytest.approx(turn, abs=0.1)
+    assert span.up_to(1).points == pytest.approx(way[:4])
+    assert span.up_to(2).points == pytest.approx(way[:8])

@@ -9,7 +9,7 @@ import pytest
 
 from knotopt import Cable, find_knot
 from knotopt.errors import RequirementError
-from knotopt.flight.limits import ROOM
+from knotopt.flight.request import FlightRequest
 from knotopt.mission.alternatives import first_good, plan_first
 from knotopt.supports.lcf import lcf
 from knotopt.supports.requirements import Requirements
@@ -87,11 +87,11 @@ def test_sets_that_are_equally_small(choice: str) -> None:
 
 
 def test_a_flight_on_another_cut_where_the_first_has_no_way() -> None:
-    asked = ("file", ROOM, None, "fixed")
+    request = FlightRequest("4_1", "file", schedule="fixed")
     blocked = GivenSupports(Cable(DIAGRAM, "L+"), (8, 9, 10, 11))
     free = GivenSupports(Cable(DIAGRAM, "L-"), tuple(range(2, 12)))
-    plan = plan_first("4_1", [blocked, free], asked)
+    plan = plan_first([blocked, free], request)
     assert plan.cable is free.cable
     assert plan.notes[-1].startswith("not on cut L+: there is no way for span 3")
     with pytest.raises(RequirementError, match="there is no way for span 3"):
-        plan_first("4_1", [blocked], asked)
+        plan_first([blocked], request)

@@ -18,12 +18,16 @@ from knotopt.catalogue.lookup import find_knot
 from knotopt.diagram.families import torus_knot
 from knotopt.errors import MissingExtraError, RequirementError
 from knotopt.rehearsal import cut_off
-from knotopt.rehearsal.cut_off import CutOff, FlightTest, FlownStatus, fly_set, solve_flown
+from knotopt.rehearsal.cut_off import AS_PLANNED, CutOff, FlownStatus, fly_set, solve_flown
+from knotopt.rehearsal.flight_tests import FlightTests
+from knotopt.rehearsal.flown_set import FlownSet
 from knotopt.sim.judge import Outcome, Verdict
+from knotopt.sim.simulators import Simulator
 from knotopt.supports import by_size
 from knotopt.supports.minimal import MinimalSupports
 from knotopt.supports.requirements import Requirements
 from knotopt.verify.span import check_span
+from tests.small_flight import flown_set
 
 TIED = Verdict(Outcome.TIED, "3_1", True, True, "1 - t + t^2")
 LOST = Verdict(Outcome.WRONG_KNOT, "unknot", False, True, "1")
@@ -39,11 +43,11 @@ class Flights:
         self.ties = ties
         self.flown: list[tuple[str, tuple[int, ...]]] = []
 
-    def __call__(self, result: MinimalSupports) -> FlightTest:
+    def __call__(self, result: MinimalSupports) -> FlownSet:
         self.flown.append((str(result.cable.cut), result.supports))
         if self.ties(result):
-            return FlightTest(TIED, (TIED, TIED, TIED))
-        return FlightTest(LOST, failed="span 3 over span 1: missing: never crossed")
+            return flown_set(TIED, TIED, TIED, TIED)
+        return flown_set(LOST)
 
 
 def open_sets(cut: Cut) -> list[tuple[int, ...]]:
@@ -66,7 +70,7 @@ def test_the_smallest_set_that_ties_by_exhaustive_search() -> None:
         return 6 in supports and len(supports) >= 4
 
     flights = Flights(lambda result: ties(result.supports))
-    found = solve_flown("3_1", KNOT, SPAN, cuts=[cut], max_cut=1000, fly=flights)
+    found = solve_flown("3_1", KNOT, SPAN, FlightTests(max_cut=1000), cuts=[cut], fly=flights)
     every = open_sets(cut)
     fewest = min(len(supports) for supports in every if ties(supports))
     assert found.status is FlownStatus.TIED and found.is_proven
@@ -78,16 +82,16 @@ def test_the_smallest_set_that_ties_by_exhaustive_search() -> None:
     assert found.smaller_cut_off == len(smaller)
     assert not any(map(ties, failed))
     assert list(map(len, failed)) == sorted(map(len, failed))
-    assert flights.flown == [("L+", supports) for supports in (*cut_off, found.result.supports)]
+    assert flights.flown == [("L+", supports) for supports in (*failed, found.result.supports)]
     assert sum(found.cut_off_by_robots.values()) == len(failed)
-    assert found.flight is not None and found.rehearsal is None
-    assert len(found.flight.trials) == found.trials == 3 and found.noise == 0.01
+    assert found.tied is not None and found.tied.is_tied
+    assert len(found.tied.disturbed) == found.tests.trials == 3 and found.tests.noise == 0.01
 
 
 def test_over_cuts_the_next_set_may_be_on_another() -> None:
     """Nothing ties on the first cut: the answer is on another, no larger than any left."""
     flights = Flights(lambda result: str(result.cable.cut) == "B-")
-    found = solve_flown("3_1", KNOT, SPAN, max_cut=200, fly=flights)
+    found = solve_flown("3_1", KNOT, SPAN, FlightTests(max_cut=200), fly=flights)
     assert found.status is FlownStatus.TIED and str(found.result.cable.cut) == "B-"
     best = min(len(supports) for supports in open_sets(Cut.parse("B-", KNOT.size)))
     assert found.result.robots == best + 2
@@ -98,20 +102,19 @@ def test_over_cuts_the_next_set_may_be_on_another() -> None:
         assert smaller <= {each.supports for each in found.cut_off if each.cut == str(cut)}
 
 
-def test_a_set_must_tie_in_every_flight() -> None:
+def test_a_set_must_tie_in_every_flight(caplog: pytest.LogCaptureFixture) -> None:
     verdicts = iter([(LOST,), (TIED, TIED, STUCK, TIED), (TIED, TIED, TIED, TIED)])
-
-    def fly(_: MinimalSupports) -> FlightTest:
-        first, *trials = next(verdicts)
-        return FlightTest(first, tuple(trials), "span 4 under span 1: missing")
-
+    caplog.set_level("INFO", "knotopt")
     told: list[CutOff] = []
-    said: list[str] = []
-    found = solve_flown("3_1", KNOT, SPAN, fly=fly, on_cut_off=told.append, tell=said.append)
+    found = solve_flown(
+        "3_1", KNOT, SPAN, fly=lambda _: flown_set(*next(verdicts)), on_cut_off=told.append
+    )
+    said = [record.getMessage() for record in caplog.records]
     assert found.status is FlownStatus.TIED and found.cut_off == tuple(told) and len(told) == 2
     assert [each.tied_instead for each in told] == ["wrong knot: unknot", "stuck: unknot"]
     assert said[0] == f"set 1: 5 robots, cut {told[0].cut}, p4 p5 p7"
-    assert said[1] == "set 1: cut off: wrong knot: unknot; span 4 under span 1: missing"
+    assert said[1] == f"set 1: cut off: wrong knot: unknot; {told[0].failed}"
+    assert told[0].failed.startswith("span 4 over span 1: ") and len(said) == 5
     assert told[0].supports == (4, 5, 7) and told[0].robots == 5
     for each in told:
         assert CutOff.from_json(json.loads(json.dumps(each.to_json()))) == each
@@ -122,9 +125,9 @@ def test_a_set_without_a_plan_is_cut_off(monkeypatch: pytest.MonkeyPatch) -> Non
         raise RequirementError("no route over span 3")
 
     monkeypatch.setattr(cut_off, "rehearse_flight", no_route)
-    monkeypatch.setattr(cut_off, "require_simulation", lambda: None)
-    found = solve_flown("3_1", KNOT, SPAN, max_cut=2)
-    assert found.status is FlownStatus.BUDGET and found.flight is None
+    monkeypatch.setattr(Simulator, "require", lambda _: None)
+    found = solve_flown("3_1", KNOT, SPAN, FlightTests(max_cut=2))
+    assert found.status is FlownStatus.BUDGET and found.tied is None
     assert {each.tied_instead for each in found.cut_off} == {"no flight planned"}
     first = found.cut_off[0]
     assert (first.verdict, first.trials, first.failed) == (None, (), "no route over span 3")
@@ -133,23 +136,23 @@ def test_a_set_without_a_plan_is_cut_off(monkeypatch: pytest.MonkeyPatch) -> Non
 
 def test_the_budget_and_how_to_go_on() -> None:
     never = Flights(lambda _: False)
-    found = solve_flown("3_1", KNOT, SPAN, max_cut=3, fly=never)
+    found = solve_flown("3_1", KNOT, SPAN, FlightTests(max_cut=3), fly=never)
     assert found.status is FlownStatus.BUDGET and len(found.cut_off) == len(never.flown) == 3
     assert found.result.found and found.is_proven  # the next one, not flown
     assert (str(found.result.cable.cut), found.result.supports) not in never.flown
-    assert len(solve_flown("3_1", KNOT, SPAN, fly=never).cut_off) == cut_off.MAX_CUT
+    assert len(solve_flown("3_1", KNOT, SPAN, fly=never).cut_off) == FlightTests.MAX_CUT
     again = Flights(lambda _: False)
-    longer = solve_flown("3_1", KNOT, SPAN, max_cut=5, known=found.cut_off, fly=again)
+    longer = solve_flown("3_1", KNOT, SPAN, FlightTests(max_cut=5), known=found.cut_off, fly=again)
     assert longer.cut_off[:3] == found.cut_off and len(longer.cut_off) == 5
     assert again.flown[0] == (str(found.result.cable.cut), found.result.supports)
-    whole = solve_flown("3_1", KNOT, SPAN, max_cut=5, fly=Flights(lambda _: False))
+    whole = solve_flown("3_1", KNOT, SPAN, FlightTests(max_cut=5), fly=Flights(lambda _: False))
     assert whole.cut_off == longer.cut_off
 
 
 def test_a_budget_of_time(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = iter(range(0, 1000, 10))
     monkeypatch.setattr("time.monotonic", lambda: float(next(clock)))
-    found = solve_flown("3_1", KNOT, SPAN, seconds=35, fly=Flights(lambda _: False))
+    found = solve_flown("3_1", KNOT, SPAN, FlightTests(seconds=35), fly=Flights(lambda _: False))
     assert found.status is FlownStatus.BUDGET and len(found.cut_off) == 3
 
 
@@ -158,7 +161,9 @@ def test_every_set_was_flown() -> None:
     every = open_sets(cut)
     known = tuple(CutOff("L+", supports, LOST, (), "") for supports in every[:-2])
     flights = Flights(lambda _: False)
-    found = solve_flown("3_1", KNOT, SPAN, cuts=[cut], known=known, max_cut=1000, fly=flights)
+    found = solve_flown(
+        "3_1", KNOT, SPAN, FlightTests(max_cut=1000), cuts=[cut], known=known, fly=flights
+    )
     assert found.status is FlownStatus.NO_SET and not found.result.found and not found.is_proven
     assert {supports for _, supports in flights.flown} == set(every[-2:])
     assert found.smaller_cut_off == 0 and len(found.cut_off) == len(every)
@@ -185,7 +190,7 @@ def test_a_solver_that_stops_early(monkeypatch: pytest.MonkeyPatch) -> None:
 )
 def test_numbers_that_make_no_sense(options: dict[str, Any], message: str) -> None:
     with pytest.raises(RequirementError, match=message):
-        solve_flown("3_1", KNOT, fly=Flights(lambda _: True), **options)
+        FlightTests(**options)
 
 
 def test_without_mujoco_nothing_is_solved(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -194,7 +199,7 @@ def test_without_mujoco_nothing_is_solved(monkeypatch: pytest.MonkeyPatch) -> No
 
     monkeypatch.setitem(sys.modules, "mujoco", None)
     monkeypatch.setattr(by_size, "minimal_supports", solve)
-    with pytest.raises(MissingExtraError, match="flying sets of supports needs mujoco"):
+    with pytest.raises(MissingExtraError, match="simulating a flight needs mujoco"):
         solve_flown("3_1", KNOT)
 
 
@@ -203,9 +208,11 @@ def test_in_physics() -> None:
     """The smallest set of `span` ties 3_1; a cable without supports does not."""
     pytest.importorskip("mujoco")
     diagram = find_knot("3").diagram
-    found = solve_flown("3_1", diagram, SPAN, max_cut=3, trials=2)
-    assert found.status is FlownStatus.TIED and found.rehearsal is not None
-    assert found.rehearsal.plan.supports == found.result.supports
-    assert found.flight is not None and len(found.flight.trials) == 2
-    lost = fly_set("3_1", replace(found.result, supports=()), trials=2)
-    assert not lost.is_tied and not lost.trials and lost.failed
+    tests = FlightTests(max_cut=3, trials=2)
+    found = solve_flown("3_1", diagram, SPAN, tests)
+    assert found.status is FlownStatus.TIED and found.tied is not None
+    assert found.tied.plan.supports == found.result.supports
+    assert len(found.tied.disturbed) == 2
+    lost = fly_set("3_1", replace(found.result, supports=()), tests)
+    assert not lost.is_tied and not lost.disturbed
+    assert CutOff.of(found.result, lost).failed == AS_PLANNED

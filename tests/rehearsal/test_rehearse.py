@@ -13,21 +13,24 @@ from knotopt.rehearsal import rehearse
 pytest.importorskip("mujoco")
 
 from knotopt import Cable, shipped_knots
-from knotopt.errors import RequirementError
 from knotopt.flight.examine import examine_plan
-from knotopt.flight.limits import ROOM, FlightLimits
-from knotopt.flight.plan import FlightPlan
+from knotopt.flight.grid_layout import layout_of_supports
+from knotopt.flight.layout import Layout
+from knotopt.flight.limits import ROOM
+from knotopt.flight.plan import FlightPlan, MotionPlan, with_supports
 from knotopt.flight.planner import FlightPlanner
-from knotopt.flight.record import Disturbance
+from knotopt.flight.request import FlightRequest
 from knotopt.rehearsal.attempt import SHAPES, RehearsedFlight
 from knotopt.rehearsal.observer import Observer
 from knotopt.rehearsal.rehearse import rehearse_flight
-from knotopt.sim.judge import Outcome
+from knotopt.sim.judge import Outcome, judge
 from knotopt.sim.simulation import Simulation
-from knotopt.sim.trials import fly_trial
+from knotopt.sim.simulators import MUJOCO
+from knotopt.sim.trials import fly_trial, simulate
 from knotopt.supports.requirements import Requirements
 from knotopt.supports.selection import choose_supports
 from knotopt.verify.flight_limits import LimitsReport
+from tests.layouts import TREFOIL
 
 
 def measured(plan: FlightPlan) -> LimitsReport:
@@ -38,10 +41,13 @@ def measured(plan: FlightPlan) -> LimitsReport:
 def flown() -> RehearsedFlight:
     """LCF's set for the trefoil, flown span by span."""
     chosen = choose_supports(shipped_knots()["3_1"].diagram, "lcf")
-    planner = FlightPlanner(chosen.cable, chosen.supports, ROOM, FlightLimits())
-    planner.plan_routes(SHAPES[0])
-    crosses = np.array([len(word) > 0 for word in planner.words])
-    run = RehearsedFlight(planner, np.where(crosses, 1.1, 1.0), SHAPES, lambda _: None)
+    return flown_by_layout(layout_of_supports(chosen.cable, chosen.supports))
+
+
+def flown_by_layout(layout: Layout) -> RehearsedFlight:
+    planner = FlightPlanner(layout).with_routes(SHAPES[0])
+    crosses = np.array([len(word) > 0 for word in layout.words])
+    run = RehearsedFlight(planner, np.where(crosses, 1.1, 1.0), SHAPES)
     assert run.fly() is None
     return run
 
@@ -50,7 +56,12 @@ def flown() -> RehearsedFlight:
 def rehearsed() -> tuple[FlightPlan, tuple[str, ...], bool]:
     """Its plan, crossings failed, whether robots got stuck."""
     run = flown()
-    return run.rehearsed("3_1", "lcf"), tuple(run.failed), run.stuck
+    return lcf_plan(run.motion()), tuple(run.given_up), run.stuck
+
+
+def lcf_plan(motion: MotionPlan) -> FlightPlan:
+    chosen = choose_supports(shipped_knots()["3_1"].diagram, "lcf")
+    return with_supports(motion, "3_1", chosen.cable, chosen.supports, "lcf")
 
 
 def test_a_rehearsed_plan_ties_the_trefoil() -> None:
@@ -75,10 +86,9 @@ def test_a_rehearsed_plan_keeps_its_limits() -> None:
 
 
 def test_a_file_that_starts_farther_out_flies_the_same_route() -> None:
-    planner = flown().planner.copy()
+    planner = flown().planner
     before = planner.formation()
-    planner.start_farther(2.0)
-    after = planner.formation()
+    after = planner.started_farther(2.0).formation()
     more = after.stops[0] - before.stops[0]
     assert more == pytest.approx(2.0 * ROOM.step, abs=0.01)
     assert (planner.robots - 1) * (after.spacing - before.spacing) == pytest.approx(more)
@@ -86,21 +96,21 @@ def test_a_file_that_starts_farther_out_flies_the_same_route() -> None:
     leader = [each.positions(inner + shift)[:, -1] for each, shift in ((before, 0), (after, more))]
     assert leader[1] == pytest.approx(leader[0], abs=1e-3)
     assert np.diff(after.stops) == pytest.approx(np.diff(before.stops))
-    assert flown().planner.spacing == before.spacing  # a copy is changed by itself
 
 
 def test_robots_that_came_too_near_fly_the_route_in_a_longer_file() -> None:
     run = flown()
-    planner = run.planner.copy()
-    planner.limits = replace(planner.limits, separation=0.31, spacing=0.31)  # more than it has
+    limits = replace(run.planner.limits, separation=0.33, spacing=0.33)  # more than it keeps
+    planner = replace(run.planner, limits=limits)
     tight = planner.formation().separation
-    judge = rehearse._Judge(lambda _: None)
-    plan = planner.plan("3_1", "lcf", "fixed", run.lengths)
-    judge.fly("as it is", plan, planner, plan.duration)
-    assert tight < 1 and judge.best is not None and judge.best.separation == tight
-    rehearse._fly_from_farther(judge, planner, run.lengths, ("3_1", "lcf"), "fixed")
-    assert judge.best.is_tied and judge.best.separation >= 1
-    assert measured(judge.best.plan).separation.value >= 0.99
+    chosen = choose_supports(shipped_knots()["3_1"].diagram, "lcf")
+    request = FlightRequest("3_1", "lcf", limits=limits, schedule="fixed")
+    task = rehearse._Task(chosen.cable, chosen.supports, request, MUJOCO)
+    found = [each.flown for each in rehearse._from_farther(task, planner, run.lengths)]
+    assert tight < 1 and 1 <= len(found) <= rehearse.FLOWN
+    best = max(found, key=lambda each: each.rank)
+    assert best.is_tied and best.separation >= 1
+    assert measured(best.plan).separation.value >= 0.99
 
 
 def assert_leader_is_at_its_crossings(plan: FlightPlan, near: float) -> None:
@@ -123,37 +133,43 @@ def test_the_leader_is_at_its_crossings_when_the_plan_says_so() -> None:
     assert_leader_is_at_its_crossings(plan, 0.05)
 
 
+def test_a_layout_without_a_grid_is_flown_and_ties_the_trefoil() -> None:
+    run = flown_by_layout(TREFOIL)
+    motion = run.motion()
+    assert not run.stuck and motion.robots == 3
+    assert [crossing.name for crossing in motion.crossings] == [
+        "span 2 over span 1",
+        "span 2 under span 1",
+    ]
+    assert judge(simulate(motion), shipped_knots()["3_1"].diagram).outcome is Outcome.TIED
+
+
 def test_without_supports_nothing_is_tied() -> None:
     cable = Cable(shipped_knots()["3_1"].diagram, "L+")
-    found = rehearse_flight("3_1", cable, (), attempts=1)
+    found = rehearse_flight(cable, (), FlightRequest("3_1"), attempts=1)
     assert not found.is_tied
     assert found.plan.robots == 2 and found.plan.crossings == ()
     assert measured(found.plan).broken == ()
 
 
-def test_a_schedule_of_no_such_name() -> None:
-    cable = Cable(shipped_knots()["3_1"].diagram, "L+")
-    with pytest.raises(RequirementError, match="fastest"):
-        rehearse_flight("3_1", cable, (), attempts=1, schedule="fastest")
-
-
 def hovering(away: float) -> tuple[FlightPlanner, Simulation]:
     """A robot at every turning point of the trefoil, the third one off its place [m]."""
     cable = Cable(shipped_knots()["3_1"].diagram, "L+")
-    planner = FlightPlanner(cable, tuple(range(2, len(cable.path))), ROOM, FlightLimits())
-    planner.lengths = [1.1 * float(np.hypot(*step)) for step in np.diff(planner.places, axis=0)]
+    layout = layout_of_supports(cable, tuple(range(2, len(cable.path))))
+    apart = np.linalg.norm(np.diff(layout.places, axis=0), axis=1)
+    planner = FlightPlanner(layout, lengths=tuple(1.1 * apart))
     flat = planner.places * ROOM.step
     robots = np.column_stack((flat, np.full(len(flat), ROOM.altitude)))
     robots[2, :2] += away * (flat[1] - flat[2]) / np.hypot(*(flat[1] - flat[2]))
     lengths = np.array(planner.lengths) * ROOM.step
-    simulation = Simulation(robots, lengths, step=ROOM.step, speed=0.6, disturbance=Disturbance())
+    simulation = MUJOCO.start(robots, lengths, step=ROOM.step, speed=0.6)
     simulation.follow(np.repeat(robots[None], 60, axis=0), 0.05)
     return planner, simulation
 
 
 def test_cable_is_seen_as_it_lies_where_robots_have_arrived_and_else_as_modelled() -> None:
     planner, simulation = hovering(0.3)
-    laid, modelled = Observer(planner, simulation).laid(3), planner.modelled(3)
+    laid, modelled = Observer(planner, simulation).laid(3), planner.modelled_cable(3)
     spans = zip(laid.spans, modelled.spans, strict=True)
     assert [np.array_equal(one, other) for one, other in spans] == [False, True, True]
     for end, place in zip(laid.spans[0][[0, -1]], planner.places[:2], strict=True):
@@ -179,10 +195,11 @@ def test_the_height_of_cable_is_seen() -> None:
 def test_the_smallest_set_ties_the_trefoil_the_same_way_twice() -> None:
     diagram = shipped_knots()["3_1"].diagram
     chosen = choose_supports(diagram, "milp", "best", Requirements("span", 0.25))
-    one, other = (rehearse_flight("3_1", chosen.cable, chosen.supports, "milp") for _ in range(2))
-    assert one.is_tied and one.failed == ()
+    request = FlightRequest("3_1", "milp")
+    one, other = (rehearse_flight(chosen.cable, chosen.supports, request) for _ in range(2))
+    assert one.is_tied and one.given_up == ()
     assert one.separation >= 1 and measured(one.plan).broken == ()
     assert_leader_is_at_its_crossings(one.plan, 0.03)
     assert np.array_equal(one.plan.positions, other.plan.positions)
-    assert np.array_equal(one.record.cable, other.record.cable)
+    assert np.array_equal(one.undisturbed.record.cable, other.undisturbed.record.cable)
     assert (one.robust, one.ways, one.rehearsals) == (other.robust, other.ways, other.rehearsals)

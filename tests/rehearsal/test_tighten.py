@@ -16,28 +16,29 @@ from knotopt.errors import RequirementError
 from knotopt.export.crazyswarm import export_files
 from knotopt.flight.examine import examine_flight, examine_plan
 from knotopt.flight.limits import ROOM
+from knotopt.flight.plan import FlightPlan
 from knotopt.flight.planner import plan_flight
 from knotopt.rehearsal import tighten
-from knotopt.rehearsal.rehearse import Rehearsal
+from knotopt.rehearsal.flown_set import FlownSet
 from knotopt.rehearsal.tighten import check_tightening, tighten_flight
 from knotopt.sim.judge import Outcome
 from knotopt.sim.simulation import Simulation
-from knotopt.sim.trials import fly_trial
+from knotopt.sim.simulators import MUJOCO
+from knotopt.sim.trials import Flight, fly_trial
 
 DIAGRAM = shipped_knots()["3_1"].diagram
 CABLE = Cable(DIAGRAM, "L+")
 
 
 @cache
-def laid() -> Rehearsal:
+def laid() -> FlownSet:
     """The trefoil with a robot at every turning point, flown as modelled."""
     plan = plan_flight("3_1", CABLE, tuple(range(2, len(CABLE.path))))
-    trial = fly_trial(plan)
-    return Rehearsal(plan, trial.record, trial.verdict, 3, 1.0, plan.duration, (), 0, 0)
+    return FlownSet(fly_trial(plan), robust=3, steady=plan.duration)
 
 
 @cache
-def tight() -> Rehearsal:
+def tight() -> FlownSet:
     return tighten_flight(laid(), 30.0)
 
 
@@ -51,7 +52,10 @@ def test_the_knot_is_smaller_and_still_the_knot() -> None:
     ends, supports = after.ends_apart, after.supports_within
     assert ends[0] == before.ends_apart[1] and supports[0] == before.supports_within[0]
     assert ends[1] > 1.5 * ends[0]
-    assert tight().verdict.outcome is Outcome.TIED and tight().verdict.closures_agree
+    assert (
+        tight().undisturbed.verdict.outcome is Outcome.TIED
+        and tight().undisturbed.verdict.closures_agree
+    )
     assert tight().robust == 3
     assert len(after.notes) == len(before.notes) + 1
     assert f"pulled {ends[1]:.2f} m apart, not 30 m: " in after.notes[-1]
@@ -61,9 +65,9 @@ def test_limits_are_kept_and_crossings_are_those_of_laying() -> None:
     before, after = examine_plan(laid().plan), examine_plan(tight().plan)
     assert after.limits.broken == () and before.limits.broken == ()
     assert after.crossings == before.crossings and after.states == before.states
-    flown = examine_flight(tight().plan, tight().record)
-    assert flown.crossings == examine_flight(laid().plan, laid().record).crossings
-    assert tight().record.finished
+    flown = examine_flight(tight().plan, tight().undisturbed.record)
+    assert flown.crossings == examine_flight(laid().plan, laid().undisturbed.record).crossings
+    assert tight().undisturbed.record.finished
     _, fit = export_files(tight().plan)
     assert fit.broken == ()
 
@@ -87,7 +91,9 @@ def test_ends_stop_where_they_are_to() -> None:
 
 
 def test_a_flight_that_ties_nothing_is_not_pulled() -> None:
-    lost = replace(laid(), verdict=replace(laid().verdict, outcome=Outcome.WRONG_KNOT))
+    flight = laid().undisturbed
+    verdict = replace(flight.verdict, outcome=Outcome.WRONG_KNOT)
+    lost = replace(laid(), undisturbed=replace(flight, verdict=verdict))
     found = tighten_flight(lost, 5.0)
     assert found.plan.tightening == 0 and np.array_equal(found.plan.times, lost.plan.times)
     assert found.plan.notes[-1] == "not pulled tight: the flight does not tie the knot"
@@ -97,10 +103,11 @@ def test_a_knot_that_a_pull_undoes_is_pulled_less(monkeypatch: pytest.MonkeyPatc
     flown: list[float] = []
 
     def undone(at_most: int) -> None:
-        def fly(plan: object, *_: object) -> SimpleNamespace:
-            flown.append(plan.tightening)  # type: ignore[attr-defined]
-            kept = len(flown) > at_most
-            return SimpleNamespace(is_tied=kept, verdict=laid().verdict, record=laid().record)
+        def fly(plan: FlightPlan, **_: object) -> Flight:
+            flown.append(plan.tightening)
+            outcome = Outcome.TIED if len(flown) > at_most else Outcome.WRONG_KNOT
+            flight = laid().undisturbed
+            return replace(flight, plan=plan, verdict=replace(flight.verdict, outcome=outcome))
 
         flown.clear()
         monkeypatch.setattr(tighten, "fly_trial", fly)
@@ -135,7 +142,7 @@ def test_what_cannot_be_meant(knot: str, cut: str, apart: float, words: str) -> 
 
 def row_of(count: int, length: float = 1.0) -> Simulation:
     start = np.column_stack((0.5 * np.arange(count), np.zeros(count), np.full(count, 2.0)))
-    return Simulation(start, np.full(count - 1, length), step=0.5, speed=0.6)
+    return MUJOCO.start(start, np.full(count - 1, length), step=0.5, speed=0.6)
 
 
 def test_two_robots_pull_until_the_cable_holds_them() -> None:

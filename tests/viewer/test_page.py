@@ -81,7 +81,7 @@ def open_page(browser: Any, tmp_path: Path) -> Iterator[Any]:
     contexts = []
 
     def opened(content: str, **settings: Any) -> Opened:
-        path = tmp_path / "report.html"
+        path = tmp_path / "viewer.html"
         path.write_bytes(content.encode())
         context = browser.new_context(**settings)
         contexts.append(context)

@@ -21,7 +21,7 @@ from knotopt.diagram.reading import read_grid
 from knotopt.errors import FileFormatError, RequirementError
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan, PlannedCrossing
-from knotopt.flight.store import check_plan, plan_to_json, read_plan
+from knotopt.flight.plan_file import check_plan, plan_to_json, read_plan
 from tests.strategies import cables
 
 

@@ -104,7 +104,7 @@ def check_plan(plan: FlightPlan) -> None:
         Arrays whose shapes do not fit, numbers that are none, uneven times, or robots that start
         within each other's ellipsoid (see `FlightLimits`).
     """
-    samples, robots = len(plan.times), plan.robots
+    samples, robots = len(plan.times), len(plan.supports) + 2
     shapes = {
         "times": (plan.times, (samples,)),
         "positions": (plan.positions, (samples, robots, 3)),

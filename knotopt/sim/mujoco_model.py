@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from knotopt.arrays import FloatArray, IntArray
-from knotopt.errors import RequirementError, require_extra
+from knotopt.errors import RequirementError
 from knotopt.sim.material import Material
 
 if TYPE_CHECKING:
@@ -62,12 +62,9 @@ def cable_model(lengths: FloatArray, step: float, material: Material, dt: float)
 
     Raises
     ------
-    MissingExtraError
-        MuJoCo is not installed.
     RequirementError
         A cable too thick for its edges, or too stiff for the time step.
     """
-    require_extra("mujoco", "sim", "simulating a flight")
     import mujoco
 
     counts = np.maximum(LEAST_EDGES, np.round(lengths / (material.edge * step))).astype(np.int64)

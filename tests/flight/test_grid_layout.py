@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from knotopt import Cable, shipped_knots
 from knotopt.arrays import FloatArray
-from knotopt.flight.word import NUDGE, Letter, span_words
+from knotopt.flight.grid_layout import NUDGE, span_words
+from knotopt.flight.layout import Letter
 from tests.strategies import cables
 
 
@@ -58,7 +59,7 @@ def test_with_all_turning_points_words_are_the_crossings_in_order(cable: Cable) 
     assert [short(word) for word in words] == met_segments(cable)
     visited = sorted(cable.crossings, key=lambda crossing: crossing.second)
     letters = [letter for word in words for letter in word]
-    assert [letter.first for letter in letters] == [crossing.first for crossing in visited]
+    assert [letter.rank for letter in letters] == [crossing.first for crossing in visited]
 
 
 @settings(max_examples=200)
@@ -97,14 +98,14 @@ def test_letters_are_crossings_of_the_grid_or_detours_over_a_span(
     for span, word in enumerate(span_words(cable, supports), 1):
         for letter in word:
             assert 1 <= letter.older < span and letter.sense in (1, -1)
-            if letter.first is None:
+            if letter.rank is None:
                 assert letter.over
                 continue
-            crossing = crossings[int(letter.first)]
+            crossing = crossings[int(letter.rank)]
             assert letter.over is not crossing.first_over
             assert robots[letter.older - 1] < crossing.first < robots[letter.older]
             assert robots[span - 1] < crossing.second < robots[span]
-        times = [crossings[int(x.first)].second for x in word if x.first is not None]
+        times = [crossings[int(x.rank)].second for x in word if x.rank is not None]
         assert times == sorted(times)
         assert not any(a.cancels(b) or b.cancels(a) for a, b in pairwise(word))
 
@@ -122,7 +123,7 @@ def test_a_robot_on_the_wrong_side_of_a_straight_span_is_reached_over_it() -> No
     detours = 0
     for left_out in everywhere:
         words = span_words(cable, tuple(k for k in everywhere if k != left_out))
-        detours += sum(letter.first is None for word in words for letter in word)
+        detours += sum(letter.rank is None for word in words for letter in word)
     assert detours > 0
 
 

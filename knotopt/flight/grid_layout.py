@@ -1,11 +1,9 @@
-"""What a flight must cross, span by span: the words of the routes.
+"""The layout of a grid's cable with supports: what a flight must cross, span by span.
 
-Span j is the cable from robot j to robot j + 1. While the leader flies it, spans 1 to j - 1 are
-laid. Its word is the list of its crossings with them in the order of flight, each a letter: those
-of the grid, and more because a laid span is straight where the grid's is not. Between the two lie
-places of robots that come later; such a robot is on the wrong side of the straight span, and is
-reached, and left again, over that span. (The other way round, past the tail, a slack cable would
-slip off over p_1.)
+The letters of a span's word are the crossings of the grid, and more because a laid span is straight
+where the grid's is not. Between the two lie places of robots that come later; such a robot is on
+the wrong side of the straight span, and is reached, and left again, over that span. (The other way
+round, past the tail, a slack cable would slip off over p_1.)
 
 A letter and the next one cancel if they cross the same span on the same side, there and back: the
 cable can be drawn straight there, as it will be between its robots. Crossings of a span with itself
@@ -14,48 +12,38 @@ are left out for the same reason.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from knotopt.arrays import FloatArray, IntArray
 from knotopt.cable.cable import Cable
+from knotopt.flight.layout import Layout, Letter, Word, reduced
 from knotopt.path.mesh import robot_times
 
 NUDGE = np.array([1.7e-6, 1.1e-6])  # off lattice points, through which straight spans may pass
 
 
-@dataclass(frozen=True)
-class Letter:
-    """One crossing of a route with an older span.
+def layout_of_supports(cable: Cable, supports: tuple[int, ...]) -> Layout:
+    """Robots at the cable's ends and at its supports; words as the grid has them.
 
-    Attributes
+    Parameters
     ----------
-    older : int
-        The older span, from 1.
-    over : bool
-        Whether the route passes over it.
-    sense : int
-        +1 where the route goes from the right of the older span to its left, else -1.
-    first : float or None
-        When the crossing is visited on the older span of the grid [grid steps]; None for one that
-        the grid does not have.
+    cable : Cable
+    supports : tuple of int
+        Turning points with a support robot (1-based).
+
+    Raises
+    ------
+    RequirementError
+        A support that is no turning point between the ends.
     """
-
-    older: int
-    over: bool
-    sense: int
-    first: float | None
-
-    def cancels(self, other: Letter) -> bool:
-        """Whether this letter followed by the other is no crossing at all."""
-        return (self.older, self.over, self.sense) == (other.older, other.over, -other.sense)
-
-    def __str__(self) -> str:
-        return f"{'over' if self.over else 'under'} span {self.older}"
+    places = cable.cells[robot_times(cable, supports)]
+    outwards = np.sign(cable.points[0] - cable.points[1])
+    return Layout(places.astype(float), span_words(cable, supports), outwards)
 
 
-def span_words(cable: Cable, supports: tuple[int, ...]) -> tuple[tuple[Letter, ...], ...]:
+def span_words(cable: Cable, supports: tuple[int, ...]) -> tuple[Word, ...]:
     """The word of every span, from 1 to R - 1, reduced.
 
     Parameters
@@ -88,18 +76,8 @@ def span_words(cable: Cable, supports: tuple[int, ...]) -> tuple[tuple[Letter, .
         leaving = _swept(cable, times, places, span - 1, span)
         entering = _swept(cable, times, places, span, span)
         inverse = [replace(letter, sense=-letter.sense) for letter in reversed(leaving)]
-        found.append(_reduced([*inverse, *word, *entering]))
+        found.append(reduced([*inverse, *word, *entering]))
     return tuple(found)
-
-
-def _reduced(letters: list[Letter]) -> tuple[Letter, ...]:
-    word: list[Letter] = []
-    for letter in letters:
-        if word and word[-1].cancels(letter):
-            word.pop()
-        else:
-            word.append(letter)
-    return tuple(word)
 
 
 def _swept(

@@ -9,42 +9,36 @@ from knotopt.cli.printing import print_facts, print_table
 
 if TYPE_CHECKING:
     from knotopt.flight.examine import Examination
-    from knotopt.mission.result import FlightResult, Flown
+    from knotopt.mission.mission import Mission
 
 HEADS = ("planned", "result", "what happened")
 
 
-def show_flight(result: FlightResult, title: str) -> None:
+def show_mission(mission: Mission, title: str) -> None:
     """Print a plan's measures, its crossings, and what came of it in physics."""
     from knotopt.supports.support_set import format_supports, place
 
-    plan = result.plan
+    plan = mission.plan
     supports = format_supports(place(plan.cable, plan.supports))
     print(f"{title}, cut {plan.cable.cut}: {plan.robots} robots ({plan.chosen_by})")
     print(f"supports: {supports or 'none'}\n")
-    print_facts(result.measures())
-    if result.flown is None:
+    print_facts(mission.measures())
+    if not mission.flights:
         print("\nthe leader's route over cable laid straight in plan:")
-        _show_crossings(result.examination)
-    else:
-        _show_flight(result.flown)
-        if result.disturbed:
+        _show_crossings(mission.examination)
+    for index, (name, flight) in enumerate(mission.flights):
+        print(f"\n{name} flight: {flight.came_of}")
+        if flight.examination is not None:
+            _show_crossings(flight.examination)
+        if index == 0 and mission.disturbed:
             print_table(
                 ("flight", "outcome", "knot", "crossings", "strands apart", "tension", "computed"),
-                [_flight_row(each) for each in result.disturbed],
+                [_flight_row(each) for each in mission.disturbed],
             )
-        if result.failed is not None:
-            _show_flight(result.failed)
     for note in plan.notes:
         print(f"note: {note}")
-    for reason in result.reasons:
+    for reason in mission.reasons:
         print(f"not good: {reason}")
-
-
-def _show_flight(flown: Flown) -> None:
-    print(f"\n{flown.name} flight: {flown.came_of}")
-    if flown.examination is not None:
-        _show_crossings(flown.examination)
 
 
 def _show_crossings(examination: Examination) -> None:

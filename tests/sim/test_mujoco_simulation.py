@@ -1,4 +1,4 @@
-"""Flights in physics: the cable at rest, robots on it, and checkpoints."""
+"""Flights in MuJoCo: the cable at rest, robots on it, and checkpoints."""
 
 from __future__ import annotations
 
@@ -17,7 +17,9 @@ from knotopt.flight.record import Disturbance, FlightRecord
 from knotopt.sim.hanging import hanging_chain
 from knotopt.sim.judge import Outcome, judge
 from knotopt.sim.material import Material
-from knotopt.sim.simulation import Simulation, simulate
+from knotopt.sim.mujoco_simulation import MujocoSimulation
+from knotopt.sim.simulators import MUJOCO
+from knotopt.sim.trials import simulate
 
 SPEED = 0.4  # of the leader [m/s]
 INTERVAL = 0.05
@@ -72,11 +74,11 @@ def train(cable: Cable, supports: tuple[int, ...]) -> FlightPlan:
     )
 
 
-def two_robots(disturbance: Disturbance | None = None, **options: float) -> Simulation:
+def two_robots(disturbance: Disturbance | None = None, **options: float) -> MujocoSimulation:
     """Two robots 1 m apart with 1.5 m of cable between them."""
     pytest.importorskip("mujoco")
     start = np.array([[0.0, 0, 2], [1, 0, 2]])
-    return Simulation(
+    return MujocoSimulation(
         start, np.array([1.5]), step=0.5, speed=0.6, disturbance=disturbance, **options
     )
 
@@ -152,7 +154,7 @@ def test_the_cable_starts_at_rest_and_stays():
 def test_narrow_bights_start_apart_and_with_little_energy():
     pytest.importorskip("mujoco")
     start = np.array([[0.0, 0, 2], [0.3, 0, 2], [0.6, 0, 2]])
-    simulation = Simulation(start, np.array([2.0, 2.0]), step=0.5, speed=0.6)
+    simulation = MujocoSimulation(start, np.array([2.0, 2.0]), step=0.5, speed=0.6)
     assert simulation.record().smallest_distance == 2 * simulation.material.radius
     simulation.follow(np.tile(start, (11, 1, 1)), 0.1)
     record = simulation.record()
@@ -171,7 +173,7 @@ def test_the_cable_hangs_as_deep_as_the_catenary():
 def test_a_narrow_bight_starts_with_little_energy():
     pytest.importorskip("mujoco")
     start = np.array([[0.0, 0, 2], [0.12, 0, 2]])
-    simulation = Simulation(start, np.array([3.0]), step=1.0, speed=0.6)
+    simulation = MujocoSimulation(start, np.array([3.0]), step=1.0, speed=0.6)
     assert (simulation.held[-1], simulation.cable[:, 0].min() < 0) == (15, True)
     simulation.follow(np.tile(start, (11, 1, 1)), 0.1)
     record = simulation.record()
@@ -193,7 +195,7 @@ def test_a_seed_decides_a_flight():
 def test_a_checkpoint_continues_as_if_nothing_had_happened():
     simulation = two_robots(Disturbance(noise=0.02, gust=0.2, seed=1))
     simulation.follow(away(), INTERVAL)
-    checkpoint = simulation.state()
+    checkpoint = simulation.checkpoint()
     simulation.follow(away()[::-1], INTERVAL)
     first = simulation.record()
     simulation.restore(checkpoint)
@@ -233,7 +235,7 @@ def test_a_taut_cable_ends_stuck():
 def test_a_flight_whose_numbers_blow_up_is_unsound(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # MuJoCo keeps a log of such flights where it runs
     simulation = two_robots(material=Material(force=1e9, response=1e-5))
-    checkpoint = simulation.state()
+    checkpoint = simulation.checkpoint()
     assert not simulation.follow(away(), INTERVAL)
     assert judge(simulation.record(), TREFOIL).outcome is Outcome.UNSOUND
     simulation.restore(checkpoint)
@@ -269,7 +271,7 @@ def test_noise_is_as_large_as_asked():
 )
 def test_impossible_starts_are_refused(start, lengths, message):
     with pytest.raises(RequirementError, match=message):
-        Simulation(np.array(start, dtype=float), np.array(lengths), step=0.5, speed=0.6)
+        MujocoSimulation(np.array(start, dtype=float), np.array(lengths), step=0.5, speed=0.6)
 
 
 def test_impossible_cables_and_setpoints_are_refused():
@@ -288,5 +290,5 @@ def test_impossible_cables_and_setpoints_are_refused():
 
 def test_without_mujoco_the_extra_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
-    with pytest.raises(MissingExtraError, match=r"needs mujoco.*knotopt\[sim\]"):
-        Simulation(np.array([[0.0, 0, 2], [1, 0, 2]]), np.array([1.5]), step=0.5, speed=0.6)
+    with pytest.raises(MissingExtraError, match=r"a flight needs mujoco.*knotopt\[sim\]"):
+        MUJOCO.start(np.array([[0.0, 0, 2], [1, 0, 2]]), np.array([1.5]), step=0.5, speed=0.6)
