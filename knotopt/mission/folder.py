@@ -23,6 +23,7 @@ NAMES = (
     "fly.py",
     "flight.png",
     "strip.png",
+    "flight.gif",
     "report.html",
 )
 
@@ -55,13 +56,14 @@ def flight_files(result: FlightResult) -> dict[str, str | bytes]:
 
 
 def flight_pictures(result: FlightResult) -> dict[str, bytes]:
-    """`flight.png`, and `strip.png` of the undisturbed flight in physics.
+    """`flight.png`; of the undisturbed flight in physics `strip.png` and the moving `flight.gif`.
 
     Raises
     ------
     MissingExtraError
         matplotlib is not installed (extra `viz`).
     """
+    from knotopt.plot.animation import animate
     from knotopt.plot.figures import figure_bytes
     from knotopt.plot.flight import flight_figure, strip_figure
 
@@ -71,6 +73,7 @@ def flight_pictures(result: FlightResult) -> dict[str, bytes]:
         title = f"{plan.name}: {plan.robots} robots, {flown.name} flight: {flown.verdict}"
         strip = strip_figure(flown.record, plan, title=title)
         pictures["strip.png"] = figure_bytes(strip, "png")
+        pictures["flight.gif"] = animate(plan, flown.record, title)
     return pictures
 
 
