@@ -21,9 +21,9 @@ NAMES = (
     "robot_*.csv",
     "crazyflies.yaml",
     "fly.py",
+    "flight.gif",
     "flight.png",
     "strip.png",
-    "flight.gif",
     "report.html",
 )
 
@@ -56,7 +56,9 @@ def flight_files(result: FlightResult) -> dict[str, str | bytes]:
 
 
 def flight_pictures(result: FlightResult) -> dict[str, bytes]:
-    """`flight.png`; of the undisturbed flight in physics `strip.png` and the moving `flight.gif`.
+    """`flight.png`, and `strip.png` of the undisturbed flight in physics.
+
+    `flight.gif` is that flight moving.
 
     Raises
     ------
