@@ -24,6 +24,7 @@ NAMES = (
     "robot_*.csv",
     "crazyflies.yaml",
     "fly.py",
+    "flight.gif",
     "flight.png",
     "strip.png",
     PAGE,
@@ -60,11 +61,14 @@ def flight_files(mission: Mission) -> dict[str, str | bytes]:
 def flight_pictures(mission: Mission) -> dict[str, bytes]:
     """`flight.png`, and `strip.png` of the undisturbed flight in physics.
 
+    `flight.gif` is that flight moving.
+
     Raises
     ------
     MissingExtraError
         matplotlib is not installed (extra `viz`).
     """
+    from knotopt.plot.animation import animate
     from knotopt.plot.figures import figure_bytes
     from knotopt.plot.flight import flight_figure, strip_figure
 
@@ -75,6 +79,7 @@ def flight_pictures(mission: Mission) -> dict[str, bytes]:
             title = f"{plan.name}: {plan.robots} robots, {name} flight: {flight.verdict}"
             strip = strip_figure(flight.record, plan, title=title)
             pictures["strip.png"] = figure_bytes(strip, "png")
+            pictures["flight.gif"] = animate(plan, flight.record, title)
     return pictures
 
 

@@ -142,10 +142,10 @@ def strip_figure(record: FlightRecord, plan: FlightPlan, count: int = 6, title: 
     panels = np.atleast_1d(figure.subplots(rows, columns)).ravel()
     for axes in panels:
         axes.set_axis_off()
-    seen = _seen(record.cable)
+    seen = seen_from_above(record.cable)
     laid = seen[int(np.searchsorted(record.clock[:-1], plan.laid)), record.held, :2]
-    for axes, frame in zip(panels, _instants(record, plan, count), strict=False):
-        _draw_cable(axes, seen[frame], record)
+    for axes, frame in zip(panels, instants(record, plan, count), strict=False):
+        draw_strands(axes, seen[frame], record)
         _draw_numbered(axes, seen[frame, record.held, :2])
         # Robots that still queue outside are left out of later pictures.
         here = np.concatenate((seen[frame, :, :2], laid))
@@ -162,7 +162,7 @@ def strip_figure(record: FlightRecord, plan: FlightPlan, count: int = 6, title: 
     return figure
 
 
-def _instants(record: FlightRecord, plan: FlightPlan, count: int) -> list[int]:
+def instants(record: FlightRecord, plan: FlightPlan, count: int) -> list[int]:
     """Frames of a strip: the last one, and others evenly from where the leader starts."""
     moves = np.flatnonzero(np.diff(plan.positions[:, -1], axis=0).any(axis=1))
     start = plan.times[moves[0]] if len(moves) else 0.0
@@ -173,7 +173,7 @@ def _instants(record: FlightRecord, plan: FlightPlan, count: int) -> list[int]:
     return frames
 
 
-def _seen(points: FloatArray) -> FloatArray:
+def seen_from_above(points: FloatArray) -> FloatArray:
     """Points as an eye far away sees them: right, up, and towards the eye [m]."""
     turn, elevation = np.radians(TURN), np.radians(ELEVATION)
     right = points[..., 0] * np.cos(turn) - points[..., 1] * np.sin(turn)
@@ -183,7 +183,7 @@ def _seen(points: FloatArray) -> FloatArray:
     return np.stack((right, up, towards), axis=-1)
 
 
-def _draw_cable(axes: Axes, seen: FloatArray, record: FlightRecord) -> None:
+def draw_strands(axes: Axes, seen: FloatArray, record: FlightRecord) -> None:
     """The cable's edges from far to near; each clears its surroundings before it is drawn."""
     span = np.searchsorted(record.held, np.arange(len(seen) - 1), side="right") - 1
     colours = np.array(ramp(len(record.held)))[np.clip(span, 0, len(record.held) - 1)]

@@ -181,7 +181,7 @@ def test_a_flight_in_physics(cli: Cli, tmp_path: Path) -> None:
     assert "0 of 2 tie it (95 % interval 0 to 66 %); noise of 300 mm, wind (0.1, -0.1) m/s" in out
     assert re.search(r"seed 7 flight: stuck: \w+, held back at \d+\.\d s of the plan", out)
     assert "the flight did not get that far" in out and "seed 8 flight" not in out
-    assert names(folder) == FILES | robots(5) | {"strip.png"}
+    assert names(folder) == FILES | robots(5) | {"strip.png", "flight.gif"}
     check = json.loads((folder / "check.json").read_text())
     assert status == (0 if check["ok"] else 1)
     assert check["undisturbed"]["outcome"] == "tied" and check["rehearsal"]["robust"] == 3

@@ -151,6 +151,7 @@ def test_files(tmp_path: Path, flown: Mission) -> None:
     assert "waypoints.csv" in page and "what happened" in page and "seed 2" in page
     for name in ("flight.png", "strip.png"):
         assert bytes(files[name]).startswith(b"\x89PNG")
+    assert bytes(files["flight.gif"]).startswith(b"GIF89a")
 
 
 def test_a_plan_that_was_not_flown(planned: Mission) -> None:
