@@ -14,9 +14,10 @@ from knotopt import Cable
 from knotopt.arrays import FloatArray
 from knotopt.cable.alexander import alexander_from_gauss, alexander_polynomial
 from knotopt.catalogue.lookup import find_knot
+from knotopt.topology.cable_state import cable_state
 from knotopt.topology.closure import closed_gauss
 from knotopt.topology.extract import extract_state
-from knotopt.topology.legal import successors
+from knotopt.topology.legal import refusal, successors
 from knotopt.topology.state import RopeState
 from knotopt.verify.flight import leader_events
 from knotopt.verify.flight_places import _place, _Seen, executed_states, planned_states
@@ -24,6 +25,7 @@ from knotopt.verify.flight_states import (
     EndCrossing,
     Interval,
     StateSequence,
+    _can_cross,
     compare_states,
     state_sequence,
 )
@@ -51,6 +53,18 @@ def gauss_states(cable: Cable) -> list[tuple[RopeState]]:
         states.append((RopeState.from_gauss(met, signs),))
     assert len(times) == 2 * len(states)
     return states
+
+
+@settings(max_examples=40)
+@given(cables(max_size=9))
+def test_the_leader_can_cross_what_the_rules_of_plans_say(cable: Cable) -> None:
+    state = cable_state(cable)
+    last = len(state.code)
+    for segment in range(last + 1):
+        for over, sense in ((over, sense) for over in (True, False) for sense in (1, -1)):
+            action = EndCrossing(over, sense, 0.0, ()).action(segment, last)
+            allowed = refusal(state, action) is None
+            assert _can_cross(state.code, segment, sense) == allowed
 
 
 def exactly(place: float) -> Interval:
