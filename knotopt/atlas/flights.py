@@ -4,55 +4,25 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
 
-from knotopt.atlas.optional_rows import FlightRow, FlightTimesRow
+from knotopt.atlas.columns import FLOWN
 from knotopt.atlas.programs import Solved
 from knotopt.atlas.schema import KnotRow
 from knotopt.cable.cable import Cable
+from knotopt.document.columns import Row
 from knotopt.errors import RequirementError
 from knotopt.flight.examine import examine_flight
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.planner import plan_flight
 from knotopt.sim.trials import Trial, fly_trial
 from knotopt.supports.lcf import LcfResult
-from knotopt.supports.requirements import Formulation
 from knotopt.supports.selection import GivenSupports
-
-Supports = tuple[int, ...]
-
-
-@dataclass(frozen=True)
-class Flown:
-    """What came of one set: columns of its row, and the time [s].
-
-    Attributes
-    ----------
-    planned, tied : bool
-    why : str
-        Why there is no plan, or what went wrong in flight.
-    planning_seconds, simulation_seconds : float
-    outcome, verdict, flight_seconds, separation, strand_distance, tension, cable_length
-        As in `FlightRow`, None without a plan.
-    """
-
-    planned: bool
-    tied: bool
-    why: str
-    planning_seconds: float
-    simulation_seconds: float = 0.0
-    outcome: str | None = None
-    verdict: str | None = None
-    flight_seconds: float | None = None
-    separation: float | None = None
-    strand_distance: float | None = None
-    tension: float | None = None
-    cable_length: float | None = None
+from knotopt.tables.methods import LCF, USUAL_PROGRAMS, SmallestSet, Supports
 
 
 def fly_sets(
-    knot: KnotRow, plain: LcfResult, programs: Mapping[Formulation, Solved]
-) -> tuple[list[FlightRow], list[FlightTimesRow]]:
+    knot: KnotRow, plain: LcfResult, programs: Mapping[SmallestSet, Solved]
+) -> tuple[list[Row], list[Row]]:
     """Fly LCF's set and the smallest set of each program; sets that are equal fly once.
 
     Parameters
@@ -60,44 +30,45 @@ def fly_sets(
     knot : KnotRow
     plain : LcfResult
         On one cut.
-    programs : mapping of Formulation to Solved
-        `opening` in mode turning-point, and `span` if it was asked for.
+    programs : mapping of SmallestSet to Solved
+
+    Returns
+    -------
+    (rows, times)
+        Of `FLIGHTS` and of `FLIGHT_TIMES`.
 
     Raises
     ------
     MissingExtraError
         MuJoCo is not installed (extra `sim`).
     """
-    sets: dict[str, Supports] = {"lcf": plain.supports}
-    for formulation, program in programs.items():
+    sets: dict[str, Supports] = {LCF.key: plain.supports}
+    for method, program in programs.items():
         if program.supports is not None:
-            sets[str(formulation)] = program.supports
-    flown: dict[Supports, Flown] = {}
+            sets[method.key] = program.supports
+    flown: dict[Supports, Row] = {}
     rows, times = [], []
     for name, supports in sets.items():
-        if supports in flown:
-            result = replace(flown[supports], planning_seconds=0.0, simulation_seconds=0.0)
-        else:
-            result = flown[supports] = fly_set(knot.knot, plain.cable, supports)
-        cells = asdict(result)
-        spent = {key: cells.pop(key) for key in ("planning_seconds", "simulation_seconds")}
-        place = (knot.number, knot.knot, str(plain.cable.cut), name)
+        spent: Row = {"planning_seconds": 0.0, "simulation_seconds": 0.0}
+        if supports not in flown:
+            flown[supports], spent = fly_set(knot.knot, plain.cable, supports)
+        keys = {
+            "number": knot.number,
+            "knot": knot.knot,
+            "cut": str(plain.cable.cut),
+            "supports": name,
+        }
         chosen = GivenSupports(plain.cable, supports)
-        span = programs.get(Formulation.SPAN)
-        rows.append(
-            FlightRow(
-                *place,
-                robots=chosen.robots,
-                opening_open=programs[Formulation.OPENING].allows(chosen),
-                span_open=span.allows(chosen) if span else None,
-                **cells,
-            )
-        )
-        times.append(FlightTimesRow(*place, **spent))
+        cells = {**keys, "robots": chosen.robots, **flown[supports]}
+        for method in USUAL_PROGRAMS:
+            solved = programs.get(method)
+            cells |= method.cells(open=solved.allows(chosen) if solved else None)
+        rows.append(cells)
+        times.append({**keys, **spent})
     return rows, times
 
 
-def fly_set(name: str, cable: Cable, supports: Supports) -> Flown:
+def fly_set(name: str, cable: Cable, supports: Supports) -> tuple[Row, Row]:
     """Plan a flight by the model of laid cable, without rehearsals, and fly it undisturbed.
 
     Parameters
@@ -108,34 +79,47 @@ def fly_set(name: str, cable: Cable, supports: Supports) -> Flown:
     supports : tuple of int
         Turning points with a support robot (1-based).
 
+    Returns
+    -------
+    (cells, times)
+        Of `FLIGHTS` from "planned" on, and of `FLIGHT_TIMES`.
+
     Raises
     ------
     MissingExtraError
         MuJoCo is not installed (extra `sim`).
     """
+    cells: Row = dict.fromkeys(column.name for column in FLOWN)
     began = time.perf_counter()
     try:
         plan = plan_flight(name, cable, supports, "file", schedule="optimised")
     except RequirementError as error:
-        return Flown(False, False, str(error), time.perf_counter() - began)
+        cells |= {"planned": False, "tied": False, "why": str(error)}
+        return cells, _times(began, time.perf_counter())
     planned = time.perf_counter()
     trial = fly_trial(plan)
     simulated = time.perf_counter()
     separation, amiss = _examined(plan, trial)
-    return Flown(
-        planned=True,
-        tied=trial.is_tied,
-        why="" if trial.is_tied else amiss,
-        planning_seconds=planned - began,
-        simulation_seconds=simulated - planned,
-        outcome=str(trial.verdict.outcome),
-        verdict=str(trial.verdict),
-        flight_seconds=plan.duration,
-        separation=separation,
-        strand_distance=trial.record.smallest_distance,
-        tension=trial.record.largest_tension,
-        cable_length=float(plan.lengths.sum()),
-    )
+    cells |= {
+        "planned": True,
+        "outcome": str(trial.verdict.outcome),
+        "verdict": str(trial.verdict),
+        "tied": trial.is_tied,
+        "why": "" if trial.is_tied else amiss,
+        "flight_seconds": plan.duration,
+        "separation": separation,
+        "strand_distance": trial.record.smallest_distance,
+        "tension": trial.record.largest_tension,
+        "cable_length": float(plan.lengths.sum()),
+    }
+    return cells, _times(began, planned, simulated)
+
+
+def _times(began: float, planned: float, simulated: float | None = None) -> Row:
+    return {
+        "planning_seconds": planned - began,
+        "simulation_seconds": 0.0 if simulated is None else simulated - planned,
+    }
 
 
 def _examined(plan: FlightPlan, trial: Trial) -> tuple[float | None, str]:

@@ -3,25 +3,26 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from knotopt.atlas import flights
+from knotopt.atlas.columns import FILES, FLOWN
 from knotopt.atlas.engine import Local
-from knotopt.atlas.flights import Flown, fly_set
+from knotopt.atlas.flights import fly_set
 from knotopt.atlas.measure import KnotResult, measure_knot
-from knotopt.atlas.optional_rows import FlightRow, FlightTimesRow
 from knotopt.atlas.report.flights import OUTCOMES, agreement_table, tied_table
-from knotopt.atlas.report.markdown import markdown
 from knotopt.atlas.report.report import report_document
 from knotopt.atlas.report.results import Results, read_results
 from knotopt.atlas.run import run_atlas
-from knotopt.atlas.schema import FLIGHT_TIMES, FLIGHTS, Settings, meaning
+from knotopt.atlas.schema import FLIGHT_TIMES, FLIGHTS, Settings
 from knotopt.atlas.store import read_manifest, read_rows
 from knotopt.cable.cable import Cable
 from knotopt.catalogue.lookup import find_knot
+from knotopt.document.columns import Row, names
+from knotopt.document.markdown import markdown
 from knotopt.errors import MissingExtraError, RequirementError
 from knotopt.sim.trials import wilson_interval
 from tests.conftest import Cli
@@ -29,16 +30,35 @@ from tests.small_atlas import LIST, Replay, contents
 
 Supports = tuple[int, ...]
 SETTINGS = Settings(span=True, check=0, physics=True)
-FLOWN = Flown(True, True, "", 1.0, 2.0, "tied", "tied: 3_1", 30.0, 1.1, 0.03, 0.2, 9.0)
-LOST = replace(FLOWN, tied=False, why="crossing 2", outcome="wrong knot", verdict="wrong knot: ...")
-UNPLANNED = Flown(False, False, "no way", 1.0)
+TIED = {
+    "planned": True,
+    "outcome": "tied",
+    "verdict": "tied: 3_1",
+    "tied": True,
+    "why": "",
+    "flight_seconds": 30.0,
+    "separation": 1.1,
+    "strand_distance": 0.03,
+    "tension": 0.2,
+    "cable_length": 9.0,
+}
+LOST = TIED | {
+    "outcome": "wrong knot",
+    "verdict": "wrong knot: ...",
+    "tied": False,
+    "why": "crossing 2",
+}
+UNPLANNED = dict.fromkeys(TIED) | {"planned": False, "tied": False, "why": "no way"}
+TIMES = {"planning_seconds": 1.0, "simulation_seconds": 2.0}
 
 
-def stub(_: str, cable: Cable, supports: Supports) -> Flown:
+def stub(_: str, cable: Cable, supports: Supports) -> tuple[Row, Row]:
     """Small sets do not tie; one cut has no plan for them."""
     if len(supports) > 4:
-        return FLOWN
-    return UNPLANNED if str(cable.cut) == "L-" else LOST
+        return TIED, TIMES
+    if str(cable.cut) == "L-":
+        return UNPLANNED, TIMES | {"simulation_seconds": 0.0}
+    return LOST, TIMES
 
 
 @pytest.fixture(scope="module")
@@ -61,12 +81,13 @@ def results(folder: Path) -> Results:
 
 
 def test_a_set_that_ties() -> None:
-    flown = fly_set("3_1", Cable(find_knot("3_1").diagram, "L-"), (3, 4, 5))
-    assert (flown.planned, flown.tied, flown.outcome) == (True, True, "tied")
-    assert (flown.verdict, flown.why) == ("tied: 3_1", "")
-    measures = (flown.flight_seconds, flown.separation, flown.strand_distance, flown.cable_length)
-    assert all(value is not None and value > 0 for value in measures)
-    assert min(flown.planning_seconds, flown.simulation_seconds) > 0
+    flown, times = fly_set("3_1", Cable(find_knot("3_1").diagram, "L-"), (3, 4, 5))
+    assert tuple(flown) == names(FLOWN)
+    told = {"planned": True, "outcome": "tied", "verdict": "tied: 3_1", "tied": True, "why": ""}
+    assert flown | told == flown
+    measures = ("flight_seconds", "separation", "strand_distance", "tension", "cable_length")
+    assert all(flown[name] > 0 for name in measures)
+    assert min(times.values()) > 0
 
 
 def test_a_set_without_a_plan(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -74,9 +95,9 @@ def test_a_set_without_a_plan(monkeypatch: pytest.MonkeyPatch) -> None:
         raise RequirementError("no way for span 4")
 
     monkeypatch.setattr(flights, "plan_flight", refuse)
-    flown = fly_set("3_1", Cable(find_knot("3_1").diagram, "L-"), (3,))
-    assert (flown.planned, flown.tied, flown.why) == (False, False, "no way for span 4")
-    assert flown.outcome is flown.flight_seconds is flown.tension is None
+    flown, times = fly_set("3_1", Cable(find_knot("3_1").diagram, "L-"), (3,))
+    assert flown == UNPLANNED | {"why": "no way for span 4"}
+    assert times["simulation_seconds"] == 0
 
 
 def test_a_flight_that_cannot_be_examined(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -90,8 +111,8 @@ def test_a_flight_that_cannot_be_examined(monkeypatch: pytest.MonkeyPatch) -> No
 
     monkeypatch.setattr(flights, "fly_trial", lambda _: Trial())
     monkeypatch.setattr(flights, "examine_flight", broken)
-    flown = fly_set("3_1", Cable(find_knot("3_1").diagram, "L-"), (3, 4, 5))
-    assert (flown.separation, flown.why) == (None, "the simulation broke down")
+    flown, _ = fly_set("3_1", Cable(find_knot("3_1").diagram, "L-"), (3, 4, 5))
+    assert (flown["separation"], flown["why"]) == (None, "the simulation broke down")
 
 
 def test_rows(folder: Path, found: dict[int, KnotResult]) -> None:
@@ -100,33 +121,33 @@ def test_rows(folder: Path, found: dict[int, KnotResult]) -> None:
     assert [row["supports"] for row in rows] == [row["supports"] for row in times] == kinds
     atlas = [row for number in (1, 2) for row in found[number].rows]
     for row, measured in zip(rows, [each for each in atlas for _ in range(3)], strict=True):
-        assert (row["knot"], row["cut"]) == (measured.knot, measured.cut)
-        assert row["robots"] == getattr(measured, f"{row['supports']}_robots")
+        assert (row["knot"], row["cut"]) == (measured["knot"], measured["cut"])
+        assert row["robots"] == measured[f"{row['supports']}_robots"]
         if row["supports"] == "lcf":
-            assert row["opening_open"] == measured.lcf_open
+            assert row["opening_open"] == measured["lcf_open"]
         assert row["opening_open"] or row["supports"] != "opening"
         assert row["span_open"] or row["supports"] != "span"
         assert row["planned"] or row["cut"] == "L-"
     assert {row["span_open"] for row in rows} == {True, False}
-    for name, row_class in ((FLIGHTS, FlightRow), (FLIGHT_TIMES, FlightTimesRow)):
+    for name in (FLIGHTS, FLIGHT_TIMES):
         schema = read_rows(folder, name).schema
-        for column in fields(row_class):
-            assert schema.field(column.name).metadata[b"meaning"].decode() == meaning(column)
+        for column in FILES[name]:
+            assert schema.field(column.name).metadata[b"meaning"].decode() == column.meaning
     assert {"mujoco", "scipy"} < set(read_manifest(folder).versions)
 
 
 def test_equal_sets_fly_once(monkeypatch: pytest.MonkeyPatch) -> None:
     flown: list[tuple[str, Supports]] = []
 
-    def count(_: str, cable: Cable, supports: Supports) -> Flown:
+    def count(_: str, cable: Cable, supports: Supports) -> tuple[Row, Row]:
         flown.append((str(cable.cut), supports))
-        return FLOWN
+        return TIED, TIMES
 
     monkeypatch.setattr(flights, "fly_set", count)
     result = measure_knot(LIST[0], SETTINGS)
     assert len(flown) == len(set(flown)) < 24
     times = result.requested[FLIGHT_TIMES]
-    assert sum(row.simulation_seconds > 0 for row in times) == len(flown)
+    assert sum(row["simulation_seconds"] > 0 for row in times) == len(flown)
     assert len(times) == len(result.requested[FLIGHTS]) == 24
 
 

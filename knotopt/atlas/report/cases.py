@@ -7,12 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from knotopt.arrays import FloatArray
-from knotopt.atlas.report.document import NONE, Block, Picture, Section, table
 from knotopt.atlas.report.heuristic import difference
-from knotopt.atlas.report.numbers import whole
-from knotopt.atlas.report.results import Results, Supports
+from knotopt.atlas.report.results import Results
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import OUTER_CUTS
+from knotopt.document.cells import whole
+from knotopt.document.model import NONE, Block, Picture, Section, table
+from knotopt.tables.methods import Supports
 
 SHOWN = 10
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from knotopt.atlas.report.document import Picture, Section, Table, table
-from knotopt.atlas.report.numbers import largest, mean
 from knotopt.atlas.report.results import Results
 from knotopt.atlas.report.robots import named_groups
 from knotopt.cable.cut import OUTER_CUTS
+from knotopt.document.cells import largest, mean
+from knotopt.document.model import Picture, Section, Table, table
 
 
 def cuts_section(results: Results) -> Section:
@@ -30,9 +30,8 @@ def cuts_section(results: Results) -> Section:
 
 def spread_table(results: Results) -> Table:
     """Means on the best, the middle and the worst cut by crossing number."""
-    columns = [c for c in ("lcf_robots", "opening_robots", "span_robots") if c in results.methods]
     rows = []
-    for column in columns:
+    for column in ("lcf_robots", *results.smallest):
         for name, knots in named_groups(results):
             robots = results.cuts(column)[knots]
             spread = robots.max(axis=1) - robots.min(axis=1)

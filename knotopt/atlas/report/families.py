@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from knotopt.atlas.report.document import NONE, Block, Section, Table, table
 from knotopt.atlas.report.invariants import TORUS, TWIST, Invariants
-from knotopt.atlas.report.numbers import largest, mean, percent, whole
 from knotopt.atlas.report.results import Results
+from knotopt.document.cells import largest, mean, percent, whole
+from knotopt.document.model import NONE, Block, Section, Table, table
 
 Members = Sequence[bool | None]
 

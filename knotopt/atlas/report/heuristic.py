@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 
 from knotopt.arrays import BoolArray, FloatArray, IntArray
-from knotopt.atlas.report.document import Block, Picture, Section, Table, table
-from knotopt.atlas.report.numbers import largest, mean, percent
 from knotopt.atlas.report.results import Results
 from knotopt.atlas.report.robots import named_groups
+from knotopt.document.cells import largest, mean, percent
+from knotopt.document.model import Block, Picture, Section, Table, table
+from knotopt.tables.methods import HEURISTICS, JUDGES
 
 
 def heuristic_section(results: Results) -> Section:
@@ -88,17 +91,12 @@ def class_table(results: Results) -> Table:
 def variants_table(results: Results) -> Table:
     """LCF and its layered set, in both threading modes."""
     rows = []
-    for words, column, suffix, smallest in (
-        ("LCF, turning-point", "lcf", "", "opening_robots"),
-        ("LCF, over-under", "lcf", "_over_under", "over_under_robots"),
-        ("layered, turning-point", "layered", "", "opening_robots"),
-        ("layered, over-under", "layered", "_over_under", "over_under_robots"),
-    ):
-        is_open = results.holds(f"{column}_open{suffix}")
-        less = results.cuts(f"{column}_robots") - results.cuts(smallest)
+    for method, (judge, suffix) in product(HEURISTICS, JUDGES.items()):
+        is_open = results.holds(f"{method.key}_open{suffix}")
+        less = results.cuts(f"{method.key}_robots") - results.cuts(f"{judge.key}_robots")
         rows.append(
             [
-                words,
+                method.head + judge.where,
                 f"{is_open.size:,}",
                 percent(is_open),
                 percent(is_open & (less == 0)),

@@ -8,10 +8,10 @@ import numpy as np
 from scipy.stats import rankdata
 
 from knotopt.arrays import FloatArray
-from knotopt.atlas.report.document import Block, Picture, Section, Table, table
 from knotopt.atlas.report.invariants import Invariants
-from knotopt.atlas.report.numbers import signed
 from knotopt.atlas.report.results import Results
+from knotopt.document.cells import signed
+from knotopt.document.model import Block, Picture, Section, Table, table
 
 ARC, CROSSINGS = "arc index", "crossing number"
 _MEANING = (
@@ -28,8 +28,7 @@ _MEANING = (
 def relations_section(results: Results, known: Mapping[str, Invariants]) -> Section:
     """Rank correlations, plain and with what a grid's size alone explains taken out."""
     columns = invariant_columns(results, known)
-    correlated = [c for c in ("opening_robots", "span_robots") if c in results.methods]
-    tables = [correlation_table(results, columns, robots) for robots in correlated]
+    tables = [correlation_table(results, columns, robots) for robots in results.smallest]
     blocks: list[Block] = [each for each in tables if each.rows]
     blocks.insert(0, _MEANING if blocks else "There are too few knots for rank correlations.")
     if not known:

@@ -8,10 +8,11 @@ from statistics import median
 
 from matplotlib.figure import Figure
 
-from knotopt.atlas.report.document import NONE, Picture, Section, Table, table
 from knotopt.atlas.report.performance import SHIFT, SOLVERS, draw_profile, shifted_geometric_mean
-from knotopt.atlas.report.results import Results, Row
+from knotopt.atlas.report.results import Results
 from knotopt.cable.cut import OUTER_CUTS
+from knotopt.document.columns import Row
+from knotopt.document.model import NONE, Picture, Section, Table, table
 from knotopt.plot.figures import PANEL
 
 PROFILE = "solvers"

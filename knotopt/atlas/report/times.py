@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from knotopt.atlas.report.document import Section, Table, table
-from knotopt.atlas.report.numbers import median, percent
 from knotopt.atlas.report.results import Results
+from knotopt.document.cells import median, percent
+from knotopt.document.model import Section, Table, table
+from knotopt.tables.methods import PROGRAMS
 
 STEPS = {
     "lcf_seconds": "LCF and its layered set",
-    "opening_seconds": "`opening`, turning-point",
-    "over_under_seconds": "`opening`, over-under",
-    "span_seconds": "`span`",
+    **{
+        f"{method.key}_seconds": f"`{method.formulation}`, {method.threading}"
+        for method in PROGRAMS
+    },
     "paths_seconds": "four paths and their checks",
     "check_seconds": "checks by the definitions",
 }
@@ -42,6 +44,8 @@ def times_table(results: Results) -> Table:
     """Median, 90 % and largest of every step."""
     rows = []
     for column, words in STEPS.items():
+        if column not in results.times.column_names:
+            continue
         seconds = results.seconds(column)
         seconds = seconds[~np.isnan(seconds)]
         if seconds.size:

@@ -1,4 +1,4 @@
-"""How numbers are written in a report."""
+"""How numbers are written in cells; a dash stands for nothing."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from knotopt.arrays import FloatArray
-from knotopt.atlas.report.document import NONE
+from knotopt.document.model import NONE
 
 
 def mean(values: ArrayLike, digits: int = 2) -> str:
-    """The mean; a dash of nothing.
+    """The mean of what is known.
 
     Examples
     --------
-    >>> mean([1, 2]), mean([])
+    >>> mean([1, 2, None]), mean([])
     ('1.50', '–')
     """
     known = _known(values)
@@ -22,13 +22,13 @@ def mean(values: ArrayLike, digits: int = 2) -> str:
 
 
 def median(values: ArrayLike, digits: int = 1) -> str:
-    """The median; a dash of nothing."""
+    """The median of what is known."""
     known = _known(values)
     return f"{np.median(known):.{digits}f}" if known.size else NONE
 
 
 def whole(value: float) -> str:
-    """A whole number with commas, or a dash.
+    """A whole number with commas.
 
     Examples
     --------
@@ -39,13 +39,13 @@ def whole(value: float) -> str:
 
 
 def largest(values: ArrayLike) -> str:
-    """The largest whole number; a dash of nothing."""
+    """The largest whole number."""
     known = _known(values)
     return whole(known.max()) if known.size else NONE
 
 
-def percent(held: ArrayLike) -> str:
-    """How many in a hundred hold; a dash of nothing.
+def percent(held: ArrayLike, digits: int = 1) -> str:
+    """How many in a hundred hold.
 
     Examples
     --------
@@ -53,11 +53,11 @@ def percent(held: ArrayLike) -> str:
     '33.3 %'
     """
     values = np.asarray(held, dtype=bool)
-    return f"{100 * values.mean():.1f} %" if values.size else NONE
+    return f"{100 * values.mean():.{digits}f} %" if values.size else NONE
 
 
 def signed(value: float) -> str:
-    """A coefficient to two decimals with its sign; a dash where it is undefined.
+    """A coefficient to two decimals with its sign.
 
     Examples
     --------
@@ -65,6 +65,11 @@ def signed(value: float) -> str:
     ('−0.12', '+0.50', '–')
     """
     return NONE if np.isnan(value) else f"{value:+.2f}".replace("-", "\N{MINUS SIGN}")
+
+
+def yes(held: bool) -> str:
+    """Whether something holds, in a word."""
+    return "yes" if held else "no"
 
 
 def _known(values: ArrayLike) -> FloatArray:

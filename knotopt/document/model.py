@@ -1,4 +1,4 @@
-"""A report before it is written in some format: sections of paragraphs, tables and pictures.
+"""A document before it is written in some format: sections of paragraphs, tables and pictures.
 
 Text may have `code` between backticks; everything else in it is shown as it is.
 """
@@ -11,11 +11,12 @@ from dataclasses import dataclass
 
 NONE = "\N{EN DASH}"
 """A cell with nothing to say."""
+_CONTROL = re.compile(r"\s*[\x00-\x1f\x7f-\x9f\u2028\u2029]\s*")  # line breaks too
 
 
 @dataclass(frozen=True)
 class Table:
-    """Rows of cells under heads; columns of numbers stand to the right.
+    """Rows of cells under heads.
 
     Attributes
     ----------
@@ -23,23 +24,25 @@ class Table:
     rows : tuple of tuple of str
     caption : str
         What it shows, and of how many knots and cuts.
+    sides : str
+        For each column "l" or "r"; by default columns of numbers stand to the right.
     """
 
     heads: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     caption: str
+    sides: str = ""
 
     def __post_init__(self) -> None:
         for row in self.rows:
             if len(row) != len(self.heads):
                 raise ValueError(f"row {row} has {len(row)} cells under {len(self.heads)} heads")
-
-    @property
-    def is_number(self) -> tuple[bool, ...]:
-        """Which columns hold numbers only."""
-        return tuple(
-            all(_is_number(row[index]) for row in self.rows) for index in range(len(self.heads))
-        )
+        if not self.sides:
+            columns = [[row[index] for row in self.rows] for index in range(len(self.heads))]
+            sides = "".join("r" if all(map(_is_number, column)) else "l" for column in columns)
+            object.__setattr__(self, "sides", sides)
+        elif len(self.sides) != len(self.heads) or {*self.sides} - {*"lr"}:
+            raise ValueError(f"{self.sides!r} is not l or r for each of {len(self.heads)} heads")
 
 
 @dataclass(frozen=True)
@@ -68,7 +71,7 @@ Block = str | tuple[str, ...] | Table | Picture
 
 @dataclass(frozen=True)
 class Section:
-    """A heading and what stands under it."""
+    """A heading, if it has one, and what stands under it."""
 
     title: str
     blocks: tuple[Block, ...]
@@ -76,37 +79,49 @@ class Section:
 
 @dataclass(frozen=True)
 class Document:
-    """A report: title, facts by name, sections."""
+    """Title, if it has one, facts by name, sections."""
 
     title: str
     facts: tuple[tuple[str, str], ...]
     sections: tuple[Section, ...]
 
     @property
+    def blocks(self) -> list[Block]:
+        """What stands in all sections, in order."""
+        return [block for section in self.sections for block in section.blocks]
+
+    @property
     def pictures(self) -> list[Picture]:
         """All pictures, in their order."""
-        return [
-            block
-            for section in self.sections
-            for block in section.blocks
-            if isinstance(block, Picture)
-        ]
+        return [block for block in self.blocks if isinstance(block, Picture)]
+
+    @property
+    def tables(self) -> list[Table]:
+        """All tables, in their order."""
+        return [block for block in self.blocks if isinstance(block, Table)]
 
 
-def table(heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> Table:
+def table(
+    heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str, sides: str = ""
+) -> Table:
     """A table of whatever sequences."""
-    return Table(tuple(heads), tuple(map(tuple, rows)), caption)
+    return Table(tuple(heads), tuple(map(tuple, rows)), caption, sides)
+
+
+def tables(title: str, *parts: Table) -> Document:
+    """A document of tables alone."""
+    return Document(title, (), (Section("", parts),))
 
 
 def pieces(text: str) -> Iterator[tuple[bool, str]]:
-    """The text in pieces: whether it is code, and what it is.
+    """The text in pieces: whether it is code, and what it is, with spaces for line breaks.
 
     Examples
     --------
     >>> list(pieces("robots of `opening`"))
     [(False, 'robots of '), (True, 'opening')]
     """
-    for index, piece in enumerate(re.split(r"`([^`]*)`", text)):
+    for index, piece in enumerate(re.split(r"`([^`]+)`", _CONTROL.sub(" ", text))):
         if piece:
             yield index % 2 == 1, piece
 
