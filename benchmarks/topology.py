@@ -12,9 +12,9 @@ from benchmarks.registry import Benchmark, Case, Result, register
 from knotopt.cable.cable import Cable
 from knotopt.catalogue.lookup import find_knot
 from knotopt.diagram.families import torus_knot
-from knotopt.flight.leader_plan import cable_state
 from knotopt.supports.lcf import best_cut
 from knotopt.topology.actions import R2, Action, perform
+from knotopt.topology.cable_state import cable_state
 from knotopt.topology.legal import legal_actions
 from knotopt.topology.plan import plan_graph
 from knotopt.topology.state import TRIVIAL, RopeState

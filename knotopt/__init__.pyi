@@ -20,7 +20,6 @@ from .diagram.grid import GridDiagram as GridDiagram
 from .diagram.reading import read_grid as read_grid
 from .diagram.simplify import simplify as simplify
 from .errors import KnotoptError as KnotoptError
-from .flight.leader_plan import cable_state as cable_state
 from .flight.leader_plan import flown_plan as flown_plan
 from .flight.limits import FlightLimits as FlightLimits
 from .flight.plan import FlightPlan as FlightPlan
@@ -53,6 +52,7 @@ from .supports.search import best_diagram as best_diagram
 from .supports.search import best_supports as best_supports
 from .supports.search import supports_by_cut as supports_by_cut
 from .tables.comparison import compare as compare
+from .topology.cable_state import cable_state as cable_state
 from .topology.extract import extract_state as extract_state
 from .topology.plan import plan_graph as plan_graph
 from .topology.state import RopeState as RopeState

@@ -47,7 +47,6 @@ from knotopt.tables.methods import (
     PROGRAMS,
     USUAL_PROGRAMS,
 )
-from knotopt.verify.regions import define_regions
 
 _PACKAGES = ("numpy", "ortools")
 _PATH_PACKAGES = ("scipy", "shapely", "casadi", "pythoncdt")
@@ -160,14 +159,13 @@ def agrees_with_definition(cable: Cable, row: Row, settings: Settings) -> bool:
         Of the atlas.
     settings : Settings
     """
-    regions = list(define_regions(cable.path, cable.diagram.size))
     smallest = all(
-        method.is_met(cable, supports, settings.r, regions)
+        method.is_met(cable, supports, settings.r)
         for method in PROGRAMS
         if (supports := row[f"{method.key}_supports"]) is not None
     )
     return smallest and all(
-        judge.is_met(cable, row[f"{method.key}_supports"], settings.r, regions)
+        judge.is_met(cable, row[f"{method.key}_supports"], settings.r)
         == row[f"{method.key}_open{name}"]
         for method in HEURISTICS
         for judge, name in JUDGES.items()

@@ -15,7 +15,6 @@ from knotopt.cable.cable import Cable
 from knotopt.document.columns import Row
 from knotopt.supports.minimal import find_backend
 from knotopt.tables.methods import SmallestSet
-from knotopt.verify.regions import define_regions
 
 REFUSED = "refused"
 PACKAGES = {
@@ -55,7 +54,6 @@ def compare_solvers(
     KeyboardInterrupt
         Ctrl-C, also where a solver caught it.
     """
-    regions = list(define_regions(cable.path, cable.diagram.size)) if checked else None
     rows, times = [], []
     for method, program in programs.items():
         for solver in settings.solvers:
@@ -68,8 +66,8 @@ def compare_solvers(
             meets = None
             if chosen is not None:
                 satisfies = not program.instance.violated(program.instance.complete(chosen))
-                if regions is not None:
-                    meets = method.is_met(cable, chosen[1:-1], settings.r, regions)
+                if checked:
+                    meets = method.is_met(cable, chosen[1:-1], settings.r)
             keys = {
                 "number": knot.number,
                 "knot": knot.knot,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, cast, get_args
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -60,14 +60,15 @@ def prove(
     """
     from knotopt.cable.cut import Cut
     from knotopt.files import resumable_lines
-    from knotopt.supports.certificate import Method
     from knotopt.supports.certificate import prove as prove_knot
+    from knotopt.supports.registry import find_formulation
     from knotopt.supports.requirements import Requirements
 
     found = find_knots(knots, catalogue=catalogue)
-    if method not in (None, *get_args(Method)):
-        raise typer.BadParameter("expected refutation or count", param_hint="--method")
     asked = Requirements(formulation, r, threading)
+    proofs = find_formulation(formulation).proofs
+    if method not in (None, *proofs):
+        raise typer.BadParameter(f"expected {' or '.join(proofs)}", param_hint="--method")
     limits = solver_limits(time_limit)
     settings = [formulation, asked.threading, str(asked.openness), cut, method]
     header = run_header("prove", settings, found)
@@ -85,7 +86,7 @@ def prove(
                         named.diagram,
                         asked,
                         cuts=cuts,
-                        method=cast("Method | None", method),
+                        method=method,
                         limits=limits,
                     )
                 )

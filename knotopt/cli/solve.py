@@ -295,11 +295,12 @@ def _write(
     written = []
     if plot is not None and result.found:
         from knotopt.plot.figures import save_figure, supports_figure
+        from knotopt.supports.registry import find_formulation
 
         asked = result.requirements
         title = f"{name}, cut {result.cable.cut}: {result.robots} robots"
         title += f" ({asked.formulation}{asked_in_words(asked)})"
-        taut = asked.formulation == "span"
+        taut = find_formulation(asked.formulation).is_taut
         figure = supports_figure(result.lcf.regions, result.supports, title, taut=taut)
         save_figure(figure, plot)
         written.append(plot)

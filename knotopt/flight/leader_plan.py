@@ -20,27 +20,11 @@ from knotopt.arrays import BoolArray, IntArray
 from knotopt.cable.cable import Cable, frozen
 from knotopt.supports.regions import Regions
 from knotopt.topology.actions import R1, Action, C
+from knotopt.topology.cable_state import cable_state
 from knotopt.topology.faces import dart_faces
 from knotopt.topology.legal import apply
 from knotopt.topology.plan import Plan
 from knotopt.topology.state import TRIVIAL, RopeState
-
-
-def cable_state(cable: Cable) -> RopeState:
-    """The state of a cable: its grid diagram opened at the cut.
-
-    Examples
-    --------
-    >>> from knotopt.diagram.families import torus_knot
-    >>> print(cable_state(Cable(torus_knot(2, 3), "L+")))
-    O1+ U2+ O3+ U1+ O2+ U3+
-    """
-    _, index, over = cable.visits
-    visits = np.argsort(index, kind="stable").reshape(-1, 2)  # the two of each crossing
-    partner = np.empty_like(index)
-    partner[visits] = visits[:, ::-1]
-    positive = cable.crossings.sign[index] > 0
-    return RopeState(tuple((4 * partner + 2 * over + positive).tolist()))
 
 
 def laid_plan(state: RopeState) -> Plan:

@@ -2,17 +2,37 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from knotopt.arrays import FloatArray
+from knotopt.arrays import FloatArray, IndexArray, IntArray
 from knotopt.cable.cable import Cable
 from knotopt.path.curve import Curve, length_along
 from knotopt.path.heights import height_arcs
 from knotopt.path.mesh import between, robot_times
-from knotopt.verify.crossings import CurveCrossings, curve_crossings
+from knotopt.topology.crossings import crossings_and_contacts, projection
 
 SPACING = 0.5  # of the points that the curve goes through, at most [grid steps]
 JITTER = 1e-6  # that separates strands which touch in a vertex [grid steps]
+
+
+@dataclass(frozen=True, eq=False)
+class _PlanCrossings:
+    """Crossings of a plan path, in the order first met.
+
+    first, second: where along it, k + u is in segment k at share u; point: shape (C, 2).
+    """
+
+    first: FloatArray
+    second: FloatArray
+    point: FloatArray
+
+    @property
+    def visited(self) -> IntArray:
+        """Which crossing each visit is to, in the order of the visits, shape (2C,)."""
+        order = np.argsort(np.concatenate((self.first, self.second)))
+        return np.tile(np.arange(len(self.first)), 2)[order]
 
 
 def with_arcs(
@@ -39,11 +59,11 @@ def with_arcs(
         The curve and the time of each of its points, crossings among them.
     """
     plan, times = _denser(plan, times)
-    try:
-        crossings = curve_crossings(np.column_stack((plan, np.zeros(len(plan)))))
-    except ValueError:
+    crossings = _crossings(plan)
+    if crossings is None:
         plan = plan + JITTER * np.random.default_rng(0).standard_normal(plan.shape)
-        crossings = curve_crossings(np.column_stack((plan, np.zeros(len(plan)))))
+        crossings = _crossings(plan)
+        assert crossings is not None
     at = np.concatenate((crossings.first, crossings.second))
     places = np.arange(len(plan), dtype=np.float64)
     where = np.concatenate((places, at))
@@ -70,6 +90,33 @@ def with_arcs(
     return (smooth if _same_crossings(smooth, crossings) else Curve(points, False)), every
 
 
+def _crossings(plan: FloatArray) -> _PlanCrossings | None:
+    """The crossings of a plan path; None where it touches itself.
+
+    Which segments cross, or touch, is exact; where they cross is in floating point.
+    """
+    seen = projection(np.column_stack((plan, np.zeros(len(plan)))))
+    found, contacts = crossings_and_contacts(seen, 0.0, 0.0)
+    if contacts or len(seen.flat) < len(plan):
+        return None
+    i, j = found.i, found.j
+    u, v = _share(plan, i, j), _share(plan, j, i)
+    order = np.argsort(i + u)
+    point = plan[i] + u[:, None] * (plan[i + 1] - plan[i])
+    return _PlanCrossings((i + u)[order], (j + v)[order], point[order])
+
+
+def _share(plan: FloatArray, i: IndexArray, j: IndexArray) -> FloatArray:
+    """Where segments i meet the lines of segments j."""
+    step = plan[j + 1] - plan[j]
+    before, after = (
+        step[:, 0] * off[:, 1] - step[:, 1] * off[:, 0]
+        for off in (plan[i] - plan[j], plan[i + 1] - plan[j])
+    )
+    share: FloatArray = before / (before - after)
+    return share
+
+
 def _denser(plan: FloatArray, times: FloatArray) -> tuple[FloatArray, FloatArray]:
     """The same polyline with points between, so that a spline through them stays beside it."""
     steps = np.linalg.norm(np.diff(plan, axis=0), axis=1)
@@ -79,7 +126,7 @@ def _denser(plan: FloatArray, times: FloatArray) -> tuple[FloatArray, FloatArray
 
 
 def _first_over(
-    cable: Cable, crossings: CurveCrossings, places: FloatArray, times: FloatArray
+    cable: Cable, crossings: _PlanCrossings, places: FloatArray, times: FloatArray
 ) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
     """Whether the earlier strand passes over at each crossing."""
     columns = []
@@ -91,12 +138,9 @@ def _first_over(
     return over
 
 
-def _same_crossings(curve: Curve, crossings: CurveCrossings) -> bool:
+def _same_crossings(curve: Curve, crossings: _PlanCrossings) -> bool:
     """Whether a curve meets itself as often, and in the same order, as its polyline does."""
     samples = curve.sample(0.02)
-    try:
-        # Where the curve passes through a crossing of its own points, samples would touch.
-        found = curve_crossings((samples[:-1] + samples[1:]) / 2)
-    except ValueError:
-        return False
-    return [k for k, _ in found.code[0]] == [k for k, _ in crossings.code[0]]
+    # Where the curve passes through a crossing of its own points, samples would touch.
+    found = _crossings(((samples[:-1] + samples[1:]) / 2)[:, :2])
+    return found is not None and np.array_equal(found.visited, crossings.visited)

@@ -14,8 +14,6 @@ from knotopt.path.curve import Curve, length_along
 from knotopt.path.mesh import robot_times
 from knotopt.path.requirements import PathRequirements
 from knotopt.path.taut import taut_length
-from knotopt.supports.minimal import defined_regions
-from knotopt.supports.regions import Regions
 from knotopt.verify.path import PathReport, check_path
 
 FINE = 0.005  # between the points of a curve that are examined [grid steps]
@@ -145,14 +143,11 @@ def examine(
     cable: Cable, supports: tuple[int, ...], curve: Curve, requirements: PathRequirements
 ) -> PathReport:
     """A curve examined as a path of a cable: diagram, knot, distances, heights."""
-    regions = Regions(cable)
-    defined = defined_regions(regions)
     return check_path(
         curve.sample(FINE),
         cable.path,
         robot_points(cable, supports),
         requirements.neighbourhood,
-        [defined[k] for k in regions.active],
     )
 
 

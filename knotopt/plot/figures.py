@@ -19,6 +19,7 @@ from knotopt.plot.cable import draw_cable, draw_regions, draw_robots, draw_spans
 from knotopt.supports.lcf import LcfResult
 from knotopt.supports.minimal import MinimalSupports
 from knotopt.supports.regions import Regions
+from knotopt.supports.registry import find_formulation
 
 PANEL = 3.4  # width of a panel [inch]: one column of a two-column paper
 FORMATS = (".png", ".pdf", ".svg")
@@ -97,7 +98,7 @@ def minimal_figure(results: Sequence[MinimalSupports], title: str) -> Figure:
             *shades,
         ]
         kind = result.requirements.formulation
-        if kind == "span":
+        if find_formulation(kind).is_taut:
             handles += draw_spans(axes, cable, result.supports)
         axes.set_title(f"{kind}, cut {cable.cut}: {result.robots} robots", fontsize=9)
     figure.suptitle(title, fontsize=9, parse_math=False)

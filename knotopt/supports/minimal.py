@@ -25,15 +25,11 @@ from formulations.timing import Deadline
 from knotopt.cable.cable import Cable
 from knotopt.errors import MissingExtraError, RequirementError, SolverError
 from knotopt.supports.lcf import LcfResult, lcf
-from knotopt.supports.opening import compile_opening
-from knotopt.supports.regions import Regions
-from knotopt.supports.requirements import Formulation, Requirements
-from knotopt.supports.span import compile_span
+from knotopt.supports.registry import find_formulation
+from knotopt.supports.requirements import Requirements
 from knotopt.supports.support_set import SupportSet
 from knotopt.supports.team import compile_team
-from knotopt.verify.opening import OpeningReport, check_opening
-from knotopt.verify.regions import DefinedRegion
-from knotopt.verify.span import check_span
+from knotopt.verify.definition import OpeningReport
 
 SMALLEST = 1e-9  # squared openness that any opening at all exceeds [grid steps^2]
 
@@ -114,9 +110,8 @@ class MinimalSupports(SupportSet):
     def _examine(self, supports: tuple[int, ...]) -> OpeningReport:
         cable, asked = self.cable, self.requirements
         openness = asked.openness if asked.max_robots is None else Fraction(1, 10**6)
-        check = check_span if asked.formulation is Formulation.SPAN else check_opening
-        regions = defined_regions(self.lcf.regions)
-        return check(cable.path, cable.diagram.size, supports, openness, asked.threading, regions)
+        check = find_formulation(asked.formulation).check
+        return check(cable.path, cable.diagram.size, supports, openness, asked.threading)
 
 
 def minimal_supports(
@@ -260,8 +255,9 @@ def compile_program(seeded: LcfResult, requirements: Requirements) -> Program:
     regions = seeded.regions
     team = compile_team(regions, requirements)
     start = (1, *seeded.supports, len(seeded.cable.path))
-    compiled = compile_span if requirements.formulation is Formulation.SPAN else compile_opening
-    return compiled(regions, requirements.threading, team, start)
+    formulation = find_formulation(requirements.formulation)
+    program: Program = formulation.compile(regions, requirements.threading, team, start)
+    return program
 
 
 def find_backend(solver: str) -> Backend:
@@ -278,26 +274,6 @@ def find_backend(solver: str) -> Backend:
         raise MissingExtraError(error.package, error.extra, f"solver {solver}") from error
     except BackendError as error:
         raise SolverError(str(error)) from error
-
-
-def defined_regions(regions: Regions) -> list[DefinedRegion]:
-    """The regions as the checkers take them."""
-    cells = [tuple(cell) for cell in regions.cable.cells.tolist()]
-    found = []
-    for region in regions:
-        walk = list(range(region.intervals[0][0], region.intervals[0][1] + 1))
-        for low, high in region.intervals[1:]:
-            later = range(low, high + 1)
-            walk += later if cells[low] == cells[walk[-1]] else reversed(later)
-        apexes = frozenset(cells[regions.cable.crossings[k].first] for k in region.apexes)
-        columns, rows = region.interior.nonzero()
-        interior = zip((columns + 1).tolist(), (rows + 1).tolist(), strict=True)
-        found.append(
-            DefinedRegion(
-                str(region.kind), apexes, tuple(walk), frozenset(interior), region.threaded_by
-            )
-        )
-    return found
 
 
 def _at_hand(solution: Solution, instance: Instance) -> Solution:

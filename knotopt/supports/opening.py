@@ -19,6 +19,8 @@ from formulations.opening import OpeningProgram
 from formulations.team import Team
 from knotopt.arrays import FloatArray, IntArray
 from knotopt.cable.cable import Cable
+from knotopt.supports.formulation import Formulation
+from knotopt.supports.proofs import by_counting, by_refutation
 from knotopt.supports.regions import Regions
 from knotopt.supports.threading import Threading, threading_points
 
@@ -246,3 +248,12 @@ def cross(a: IntArray, b: IntArray) -> IntArray:
     """z component of the cross product of plane vectors, shape (...)."""
     z: IntArray = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
     return z
+
+
+OPENING = Formulation(
+    name="opening",
+    words="polygons through the grid's crossings",
+    compile=compile_opening,
+    threading=(Threading.TURNING_POINT, Threading.OVER_UNDER),
+    proofs={"refutation": by_refutation, "count": by_counting},
+)

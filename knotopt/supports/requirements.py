@@ -3,21 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import StrEnum
 from fractions import Fraction
 from itertools import chain
+from typing import Any
 
 from knotopt.errors import RequirementError
+from knotopt.supports.formulation import Formulation
+from knotopt.supports.opening import OPENING
+from knotopt.supports.registry import find_formulation
 from knotopt.supports.threading import Threading
-
-OPENNESS = Fraction(1, 2)  # default r [grid steps]
-
-
-class Formulation(StrEnum):
-    """Which regions must survive how."""
-
-    OPENING = "opening"
-    SPAN = "span"
 
 
 @dataclass(frozen=True)
@@ -26,13 +20,13 @@ class Requirements:
 
     Parameters
     ----------
-    formulation : Formulation
+    formulation : str
         `opening`: polygons through the grid's crossings stay open. `span`: the taut cable itself,
-        whose crossings move, keeps them.
+        whose crossings move, keeps them. Or another one of `knotopt.supports.registry`.
     openness : Fraction, float or str, optional
         r in (0, 1] [grid steps], in thousandths; 0.5 by default. Not with `max_robots`.
     threading : Threading, optional
-        By default `turning-point` for `opening` and `over-under` for `span`.
+        By default the formulation's: `turning-point` for `opening`, `over-under` for `span`.
     separation : float, optional
         Smallest distance between any two robots [grid steps].
     payload : float, optional
@@ -64,9 +58,9 @@ class Requirements:
     knotopt.errors.RequirementError: the openness r must lie in (0, 1] grid steps, not 1.5
     """
 
-    formulation: Formulation = Formulation.OPENING
-    openness: Fraction = OPENNESS
-    threading: Threading = Threading.TURNING_POINT
+    formulation: str = OPENING.name
+    openness: Fraction = OPENING.openness
+    threading: Threading = OPENING.threading[0]
     separation: float | None = None
     payload: float | None = None
     reach: float | None = None
@@ -77,7 +71,7 @@ class Requirements:
 
     def __init__(
         self,
-        formulation: Formulation | str = Formulation.OPENING,
+        formulation: str = OPENING.name,
         openness: Fraction | float | str | None = None,
         threading: Threading | str | None = None,
         *,
@@ -94,14 +88,11 @@ class Requirements:
                 "an openness and a largest number of robots exclude each other: with the latter "
                 "the smallest opening is maximised"
             )
-        kind = _member(Formulation, formulation, "formulation")
-        default = Threading.OVER_UNDER if kind is Formulation.SPAN else Threading.TURNING_POINT
+        rules = find_formulation(formulation)
         fields = {
-            "formulation": kind,
-            "openness": _openness(OPENNESS if openness is None else openness),
-            "threading": default
-            if threading is None
-            else _member(Threading, threading, "threading mode"),
+            "formulation": rules.name,
+            "openness": _openness(rules.openness if openness is None else openness),
+            "threading": _threading(rules, threading),
             "separation": _positive(separation, "the separation"),
             "payload": _positive(payload, "the longest span"),
             "reach": _positive(reach, "the reach"),
@@ -140,12 +131,16 @@ class Requirements:
                 raise RequirementError(f"p{end} is an end of the cable and part of no excluded set")
 
 
-def _member(kind: type[StrEnum], value: str, what: str) -> StrEnum:
-    try:
-        return kind(value)
-    except ValueError:
-        names = ", ".join(kind)
-        raise RequirementError(f"no {what} is named {value!r}: expected one of {names}") from None
+def _threading(rules: Formulation[Any], mode: str | None) -> Threading:
+    """The mode of that name, or the formulation's default."""
+    if mode is None:
+        return rules.threading[0]
+    if mode not in rules.threading:
+        names = ", ".join(rules.threading)
+        raise RequirementError(
+            f"no threading mode is named {mode!r} in {rules.name}: expected one of {names}"
+        )
+    return Threading(mode)
 
 
 def _openness(value: Fraction | float | str) -> Fraction:

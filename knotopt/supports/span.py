@@ -32,7 +32,9 @@ from knotopt.arrays import BoolArray, FloatArray, IntArray
 from knotopt.cable.cable import Cable
 from knotopt.errors import RequirementError
 from knotopt.supports.chords import Chords, between, distance_to, meet, ray_to
+from knotopt.supports.formulation import Formulation
 from knotopt.supports.opening import path_turns, stretch_margins
+from knotopt.supports.proofs import by_counting, by_refutation_of_spans
 from knotopt.supports.regions import Regions
 from knotopt.supports.threading import Threading, threading_points
 
@@ -310,3 +312,14 @@ def _overlap(first: IntArray, second: IntArray) -> BoolArray:
     same = (first == second).all(axis=-1)
     overlap: BoolArray = ~apart & ~same
     return overlap
+
+
+SPAN = Formulation(
+    name="span",
+    words="the taut cable itself",
+    compile=compile_span,
+    threading=(Threading.OVER_UNDER, Threading.TURNING_POINT),
+    proofs={"refutation": by_refutation_of_spans, "count": by_counting},
+    threads_once=True,
+    is_taut=True,
+)

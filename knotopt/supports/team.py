@@ -8,7 +8,8 @@ from formulations.team import ReachTarget, Team
 from knotopt.arrays import FloatArray
 from knotopt.cable.cable import Cable
 from knotopt.supports.regions import Regions
-from knotopt.supports.requirements import Formulation, Requirements
+from knotopt.supports.registry import find_formulation
+from knotopt.supports.requirements import Requirements
 from knotopt.supports.threading import threading_points
 
 SLACK = 1e-9  # distances are compared with decimals that users write [grid steps]
@@ -60,7 +61,7 @@ def _reach(regions: Regions, requirements: Requirements) -> list[ReachTarget]:
     """
     cable = regions.cable
     threading = threading_points(regions, requirements.threading)
-    if requirements.formulation is Formulation.SPAN:
+    if find_formulation(requirements.formulation).threads_once:
         threading = threading.first_of_strands()
     assert requirements.reach is not None
     near = _distances(cable) <= requirements.reach + SLACK

@@ -17,11 +17,9 @@ from knotopt.cable.cut import Cut
 from knotopt.diagram.grid import GridDiagram
 from knotopt.document.columns import Column
 from knotopt.supports.lcf import LcfResult, lcf_by_cut
-from knotopt.supports.requirements import Formulation, Requirements
+from knotopt.supports.registry import find_formulation
+from knotopt.supports.requirements import Requirements
 from knotopt.supports.threading import Threading
-from knotopt.verify.opening import check_opening
-from knotopt.verify.regions import DefinedRegion
-from knotopt.verify.span import check_span
 
 Supports = tuple[int, ...]
 
@@ -94,7 +92,8 @@ class SmallestSet(Method):
 
     Attributes
     ----------
-    formulation : Formulation
+    formulation : str
+        Its name.
     threading : Threading
     where : str
         What tells it from the others, in the meaning of a column.
@@ -102,7 +101,7 @@ class SmallestSet(Method):
         The setting of an atlas that asks for it; "": it is always there.
     """
 
-    formulation: Formulation
+    formulation: str
     threading: Threading
     where: str
     setting: str = ""
@@ -115,19 +114,13 @@ class SmallestSet(Method):
     @property
     def is_usual(self) -> bool:
         """Whether the threading is the formulation's own, as where nothing is said of it."""
-        return Requirements(self.formulation).threading is self.threading
+        return find_formulation(self.formulation).threading[0] is self.threading
 
     def requirements(self, openness: Fraction | float | None = None) -> Requirements:
         """What is asked of a set, with r = `openness` [grid steps]."""
         return Requirements(self.formulation, openness, self.threading)
 
-    def is_met(
-        self,
-        cable: Cable,
-        supports: Supports,
-        openness: Fraction,
-        regions: list[DefinedRegion] | None = None,
-    ) -> bool:
+    def is_met(self, cable: Cable, supports: Supports, openness: Fraction) -> bool:
         """Whether the independent checker finds a set open, from the definition.
 
         Parameters
@@ -137,12 +130,10 @@ class SmallestSet(Method):
             Without the ends.
         openness : Fraction
             r [grid steps].
-        regions : list of DefinedRegion, optional
-            Those of the cable, where the checker has found them before.
         """
-        check = check_span if self.formulation is Formulation.SPAN else check_opening
+        check = find_formulation(self.formulation).check
         size = cable.diagram.size
-        return check(cable.path, size, supports, openness, self.threading, regions).is_open
+        return check(cable.path, size, supports, openness, self.threading).is_open
 
     def _columns(self) -> Iterator[Column]:
         where, optional = self.where, bool(self.setting)
@@ -165,13 +156,11 @@ LCF = Heuristic("lcf", "LCF")
 LAYERED = Heuristic("layered", "layered", is_layered=True)
 HEURISTICS = (LCF, LAYERED)
 
-OPENING = SmallestSet(
-    "opening", "opening", Formulation.OPENING, Threading.TURNING_POINT, ", turning-point"
-)
+OPENING = SmallestSet("opening", "opening", "opening", Threading.TURNING_POINT, ", turning-point")
 OVER_UNDER = SmallestSet(
-    "over_under", "over-under", Formulation.OPENING, Threading.OVER_UNDER, ", over-under"
+    "over_under", "over-under", "opening", Threading.OVER_UNDER, ", over-under"
 )
-SPAN = SmallestSet("span", "span", Formulation.SPAN, Threading.OVER_UNDER, ", `span`", "span")
+SPAN = SmallestSet("span", "span", "span", Threading.OVER_UNDER, ", `span`", "span")
 
 PROGRAMS = (OPENING, OVER_UNDER, SPAN)
 """The smallest sets of an atlas, in the order of their columns."""

@@ -14,7 +14,7 @@ from typing import Any
 from knotopt.cable.cable import Cable
 from knotopt.catalogue.lookup import find_knot
 from knotopt.errors import CutError, FileFormatError
-from knotopt.flight.leader_plan import cable_state
+from knotopt.topology.cable_state import cable_state
 from knotopt.topology.state import RopeState, RopeStateError
 
 

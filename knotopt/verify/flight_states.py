@@ -15,8 +15,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from knotopt.topology.actions import R1, C, perform
-from knotopt.topology.faces import Code
-from knotopt.topology.legal import refusal
+from knotopt.topology.faces import Code, dart_faces
 from knotopt.topology.state import RopeState
 from knotopt.verify.flight_word import Letter, WordRow
 
@@ -122,7 +121,7 @@ def state_sequence(crossings: Sequence[EndCrossing], tolerance: float) -> StateS
     Notes
     -----
     Every order of the crossings along the rope that the places allow is followed as long as its
-    actions are legal, and those that do not last to the end are left out of all steps.
+    crossings can be made, and those that do not last to the end are left out of all steps.
 
     Examples
     --------
@@ -150,10 +149,9 @@ def state_sequence(crossings: Sequence[EndCrossing], tolerance: float) -> StateS
         found: dict[Order, Code] = {}
         for order, code in possible[-1].items():
             for segment in _segments(order, crossing, tolerance):
-                action = crossing.action(segment, len(code))
-                if refusal(RopeState(code), action) is None:
+                if _can_cross(code, segment, crossing.sense):
                     after = (*order[:segment], number, *order[segment:], number)
-                    found[after] = perform(code, action)
+                    found[after] = perform(code, crossing.action(segment, len(code)))
         if not found:
             misfit = "the leader cannot get there without another one, as of its own tether"
         elif len(found) > MOST:
@@ -216,6 +214,15 @@ def _difference(
 def crossing_key(letter: Letter) -> tuple[int, bool, int]:
     """What a crossing is like, whenever it is made: older span, over or under, sense."""
     return letter.older, letter.over, letter.sense
+
+
+def _can_cross(code: Code, segment: int, sense: int) -> bool:
+    """Whether the last end lies in the face on the side of a segment that it comes from.
+
+    With `sense` +1 that is the right one. Its own segment it can always cross.
+    """
+    face, last = dart_faces(code), len(code)
+    return segment == last or face[2 * last] == face[2 * segment + (sense > 0)]
 
 
 def _segments(order: Order, crossing: EndCrossing, tolerance: float) -> range:

@@ -10,44 +10,12 @@ turning points lie strictly inside a loop, at least 1 on a pocket.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 
+from knotopt.verify.definition import MODES, Closure, Definition, OpeningReport
 from knotopt.verify.geometry import squared_distance, winding_number
+from knotopt.verify.proofs import by_counting, by_refutation
 from knotopt.verify.regions import Cell, DefinedRegion, define_regions, lay
-
-
-@dataclass(frozen=True)
-class Closure:
-    """A region that is not open, and why."""
-
-    region: str
-    reason: str
-
-
-@dataclass(frozen=True)
-class OpeningReport:
-    """What a set of supports does to a cable.
-
-    Attributes
-    ----------
-    closures : tuple of Closure
-        Empty if every active region is r-open.
-    closed_regions : tuple of int
-        Indices of the regions that are not.
-    smallest_opening_squared : Fraction or None
-        Smallest squared distance of a threading point from an edge of its polygon [grid steps^2],
-        0 if a region is lost; None if there are no threading points.
-    """
-
-    closures: tuple[Closure, ...]
-    closed_regions: tuple[int, ...]
-    smallest_opening_squared: Fraction | None
-
-    @property
-    def is_open(self) -> bool:
-        """Whether every active region is r-open."""
-        return not self.closures
 
 
 def check_opening(
@@ -56,7 +24,6 @@ def check_opening(
     supports: Collection[int],
     openness: Fraction,
     mode: str = "turning-point",
-    regions: Iterable[DefinedRegion] | None = None,
 ) -> OpeningReport:
     """Whether the supports keep every active region r-open.
 
@@ -72,8 +39,6 @@ def check_opening(
         r [grid steps].
     mode : "turning-point" or "over-under"
         Which turning points inside a region thread it; in `over-under` columns pass over rows.
-    regions : iterable of DefinedRegion, optional
-        Regions already at hand; by default all regions, by definition.
 
     Examples
     --------
@@ -89,7 +54,7 @@ def check_opening(
     closures: list[Closure] = []
     closed = []
     smallest: Fraction | None = None
-    for index, region in enumerate(define_regions(path, size) if regions is None else regions):
+    for index, region in enumerate(define_regions(path, size)):
         threading = list(threading_cells(region, path, cells, mode))
         if not threading:
             continue
@@ -220,3 +185,16 @@ def _examine(
 
 def _label(cell: Cell, corner: dict[Cell, int]) -> str:
     return f"p{corner[cell]}" if cell in corner else f"apex [{cell[0]},{cell[1]}]"
+
+
+OPENING = Definition(
+    name="opening",
+    check=check_opening,
+    modes=MODES,
+    proofs={
+        "refutation": by_refutation(
+            lambda claim, _: closing_clauses(claim.path, claim.regions, claim.openness, claim.mode)
+        ),
+        "count": by_counting(check_opening),
+    },
+)

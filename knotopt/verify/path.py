@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from bisect import bisect
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -20,7 +20,7 @@ from scipy.spatial import cKDTree
 from knotopt.arrays import FloatArray, IntArray
 from knotopt.verify.alexander import alexander_values
 from knotopt.verify.crossings import CurveCrossings, Visit, curve_crossings, grid_code
-from knotopt.verify.regions import Cell, DefinedRegion, lay
+from knotopt.verify.regions import Cell, define_regions, lay
 
 STEP = 0.02  # between samples of a path [grid steps]
 STRETCH = 0.1  # over which slopes are measured [grid steps]
@@ -102,7 +102,6 @@ def check_path(
     path: Sequence[Cell],
     robots: FloatArray,
     neighbourhood: float,
-    regions: Iterable[DefinedRegion] = (),
 ) -> PathReport:
     """Examine a path.
 
@@ -116,8 +115,6 @@ def check_path(
         Where the robots hold it.
     neighbourhood : float
         From which way along the path on two points count as apart [grid steps].
-    regions : iterable of DefinedRegion
-        Those whose openings are measured.
 
     Raises
     ------
@@ -139,7 +136,7 @@ def check_path(
     expected = grid_code(path)
     same = crossings.code == expected
     clearance, closest = measured.clearance(neighbourhood)
-    opening, narrowest = measured.opening(path, regions) if same else (np.nan, "")
+    opening, narrowest = measured.opening(path) if same else (np.nan, "")
     gaps = _gaps(crossings, expected[0]) if same else np.array([np.nan])
     return PathReport(
         samples=samples,
@@ -293,7 +290,7 @@ class _Measured:
                 way = np.where(known, np.minimum(way, through), way)
         return way
 
-    def opening(self, path: Sequence[Cell], regions: Iterable[DefinedRegion]) -> tuple[float, str]:
+    def opening(self, path: Sequence[Cell]) -> tuple[float, str]:
         """The least room of a strand where it threads a region, and which region that is.
 
         Every second sample is looked at, of a boundary, which makes distances of 0.1 and more at
@@ -305,7 +302,9 @@ class _Measured:
         visited = [time for time, cell in enumerate(cells) if met[cell] == 2]
         at = dict(zip(visited, self.visits[0].tolist(), strict=True))
         least, narrowest = np.inf, ""
-        for region in regions:
+        for region in define_regions(path, max(map(max, path))):
+            if region.threaded_by is None:
+                continue
             boundary = {cells[time] for time in region.walk}
             edge = np.concatenate(
                 [self._between(at[low], at[high]) for low, high in _stretches(region.walk)]

@@ -1,16 +1,17 @@
-"""The regions of a cable by their definition, slowly: all pairs of crossings, sets, a queue.
+"""The regions of a cable by their definition, in sets and whole numbers.
 
 Loops (eq. 7), pockets (eq. 8), interiors (eq. 9) of the paper, from the path's turning points.
 """
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations, pairwise
+from functools import lru_cache
+from itertools import pairwise
 
 Cell = tuple[int, int]
+_Boundary = tuple[str, frozenset[Cell], tuple[int, ...]]  # kind, apexes, walk
 
 
 @dataclass(frozen=True)
@@ -53,59 +54,90 @@ def lay(path: Sequence[Cell]) -> list[Cell]:
     return cells
 
 
-def define_regions(path: Sequence[Cell], size: int) -> list[DefinedRegion]:
-    """Every region of the cable along `path`, on a grid of the given size."""
+def define_regions(path: Sequence[Cell], size: int) -> tuple[DefinedRegion, ...]:
+    """Every region of the cable along `path`, on a grid of the given size.
+
+    Loops come first, by their crossing's first visit, then pockets, by the time at which they
+    close. Those of the cables asked for last are kept, as several sets of one cable are examined.
+    """
+    return _define(tuple(path), size)
+
+
+@lru_cache(maxsize=4)
+def _define(path: tuple[Cell, ...], size: int) -> tuple[DefinedRegion, ...]:
     cells = lay(path)
     visits: dict[Cell, list[int]] = {}
     for time, cell in enumerate(cells):
         visits.setdefault(cell, []).append(time)
     crossings = {cell: times for cell, times in visits.items() if len(times) == 2}
-
-    walks: list[tuple[str, frozenset[Cell], tuple[int, ...]]] = []
-    for cell, (t1, t2) in crossings.items():
-        walks.append(("loop", frozenset([cell]), tuple(range(t1, t2 + 1))))
-    for a, b in combinations(crossings, 2):
-        (a1, a2), (b1, b2) = crossings[a], crossings[b]
-        for ends in (((a1, b1), (a2, b2)), ((a1, b2), (a2, b1))):
-            early, late = sorted(sorted(end) for end in ends)
-            if early[1] >= late[0]:
-                continue  # not disjoint
-            first = range(early[0], early[1] + 1)
-            second = range(late[0], late[1] + 1)
-            on_first = [cells[t] for t in first]
-            on_second = [cells[t] for t in second]
-            if len(set(on_first)) < len(on_first) or len(set(on_second)) < len(on_second):
-                continue  # crosses itself
-            if set(on_first) & set(on_second) != {a, b}:
-                continue
-            inside = set(first[1:-1]) | set(second[1:-1])
-            if any(times[1] <= late[1] and inside & set(times) for times in crossings.values()):
-                continue  # not a single arc when the pocket closes
-            back = second if cells[early[1]] == cells[late[0]] else reversed(second)
-            walks.append(("pocket", frozenset([a, b]), (*first, *back)))
-
+    loops = [
+        ("loop", frozenset([cell]), tuple(range(t1, t2 + 1)))
+        for cell, (t1, t2) in crossings.items()
+    ]
+    pockets = sorted(_pockets(cells, list(crossings.values())), key=lambda pocket: max(pocket[2]))
     regions = []
-    for kind, apexes, walk in walks:
-        boundary = {cells[t] for t in walk}
-        interior = enclosed(boundary, size)
-        later = [
-            k
-            for k, point in enumerate(path, 1)
-            if visits[point][0] > min(walk) and point in interior
-        ]
-        regions.append(DefinedRegion(kind, apexes, walk, interior, later[0] if later else None))
-    return regions
+    for kind, apexes, walk in (*loops, *pockets):
+        interior = enclosed({cells[t] for t in walk}, size)
+        threaded_by = next(
+            (
+                k
+                for k, point in enumerate(path, 1)
+                if point in interior and visits[point][0] > min(walk)
+            ),
+            None,
+        )
+        regions.append(DefinedRegion(kind, apexes, walk, interior, threaded_by))
+    return tuple(regions)
+
+
+def _pockets(cells: Sequence[Cell], crossings: Sequence[list[int]]) -> Iterator[_Boundary]:
+    """Two stretches of the path between the same two crossings, the later one closing the pocket.
+
+    Each is a single arc when the pocket closes: a crossing inside it is complete only later. So
+    neither crosses itself, and they meet at their ends alone.
+    """
+    other = {time: pair[1 - k] for pair in crossings for k, time in enumerate(pair)}
+    times = sorted(other)
+    place = {time: index for index, time in enumerate(times)}
+    complete = [max(time, other[time]) for time in times]
+    for first, start in enumerate(times):
+        passed = {start}
+        for last in range(first + 1, len(times)):
+            end = times[last]
+            if other[end] in passed:
+                break  # crosses itself
+            passed.add(end)
+            low, high = sorted((other[start], other[end]))
+            inside = *complete[first + 1 : last], *complete[place[low] + 1 : place[high]]
+            if low <= end or min(inside, default=high + 1) <= high:
+                continue
+            later = range(low, high + 1)
+            back = later if other[end] == low else reversed(later)
+            yield (
+                "pocket",
+                frozenset([cells[start], cells[end]]),
+                (*range(start, end + 1), *back),
+            )
 
 
 def enclosed(boundary: set[Cell], size: int) -> frozenset[Cell]:
-    """Cells that a flood fill of 4 neighbours from outside the padded grid does not reach."""
-    reached, queue = {(0, 0)}, deque([(0, 0)])
-    while queue:
-        c, r = queue.popleft()
-        for cell in ((c + 1, r), (c - 1, r), (c, r + 1), (c, r - 1)):
-            padded = 0 <= cell[0] <= size + 1 and 0 <= cell[1] <= size + 1
-            if padded and cell not in reached and cell not in boundary:
-                reached.add(cell)
-                queue.append(cell)
-    every = {(c, r) for c in range(1, size + 1) for r in range(1, size + 1)}
-    return frozenset(every - reached - boundary)
+    """Cells that a flood fill of 4 neighbours from outside the padded grid does not reach.
+
+    Sets of cells are whole numbers with a bit for each cell; columns follow each other, and a step
+    beyond a column's end leads from padding to padding.
+    """
+    width = size + 2
+    free = (1 << width * width) - 1
+    for c, r in boundary:
+        free &= ~(1 << c * width + r)
+    reached, before = 1, 0
+    while reached != before:
+        before = reached
+        reached |= reached << 1 | reached >> 1 | reached << width | reached >> width
+        reached &= free
+    inside, found = free & ~reached, []
+    while inside:
+        bit = inside.bit_length() - 1
+        inside ^= 1 << bit
+        found.append(divmod(bit, width))
+    return frozenset(found)

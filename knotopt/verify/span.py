@@ -17,12 +17,17 @@ move together.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
+from knotopt.errors import CertificateError
+from knotopt.verify.definition import MODES, Claim, Closure, Definition, OpeningReport
+from knotopt.verify.fields import field, integers
 from knotopt.verify.geometry import Point, intersection, squared_distance, winding_number
-from knotopt.verify.opening import Closure, OpeningReport, threading_cells
+from knotopt.verify.opening import threading_cells
+from knotopt.verify.proofs import by_counting, by_refutation
 from knotopt.verify.regions import Cell, DefinedRegion, define_regions, lay
 
 Reasons = list[str]
@@ -83,7 +88,6 @@ def check_span(
     supports: Collection[int],
     openness: Fraction,
     mode: str = "over-under",
-    regions: Iterable[DefinedRegion] | None = None,
     *,
     pockets: bool = True,
 ) -> OpeningReport:
@@ -91,7 +95,7 @@ def check_span(
 
     Parameters
     ----------
-    path, size, supports, openness, mode, regions
+    path, size, supports, openness, mode
         As for `check_opening`.
     pockets : bool
         Whether pockets must survive, too, or loops only.
@@ -111,7 +115,7 @@ def check_span(
     closures: list[Closure] = []
     closed = []
     smallest: Fraction | None = None
-    for index, region in enumerate(define_regions(path, size) if regions is None else regions):
+    for index, region in enumerate(define_regions(path, size)):
         if region.kind == "pocket" and not pockets:
             continue
         reasons: Reasons = []
@@ -362,3 +366,27 @@ class SpanRules:
                 moved = at[side.low], at[side.high]
                 found.append(_together(taut, side, partner, (before, after), moved))
         return found
+
+
+def _clauses(claim: Claim, content: Mapping[str, Any]) -> set[frozenset[int]]:
+    """The clauses of those listed sets of spans that no open set has together.
+
+    (u, w) is no span: p_u or p_w carries no robot, or one between them does.
+    """
+    rules = SpanRules(claim.path, claim.regions, claim.openness, claim.mode)
+    found = set()
+    for entry in field(content, "spans", list):
+        spans = [integers(span) for span in entry] if isinstance(entry, list) else [()]
+        if not all(len(span) == 2 and 1 <= span[0] < span[1] <= rules.points for span in spans):
+            raise CertificateError(f"spans: {entry!r} is no list of pairs of turning points")
+        if spans and rules.exclude([(u, w) for u, w in spans]):
+            found.add(frozenset(x for u, w in spans for x in (-u, -w, *range(u + 1, w))))
+    return found
+
+
+SPAN = Definition(
+    name="span",
+    check=check_span,
+    modes=MODES,
+    proofs={"refutation": by_refutation(_clauses), "count": by_counting(check_span)},
+)

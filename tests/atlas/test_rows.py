@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +33,9 @@ from knotopt.cable.cut import OUTER_CUTS
 from knotopt.catalogue.lookup import find_knot
 from knotopt.document.columns import names
 from knotopt.errors import FileFormatError, OutputError, RequirementError
+from knotopt.supports.registry import FORMULATIONS
 from knotopt.supports.search import best_supports
+from knotopt.supports.span import SPAN
 from knotopt.tables.comparison import compare
 from tests.small_atlas import LIST, SETTINGS, Replay, contents
 
@@ -258,12 +260,10 @@ def test_lists(tmp_path: Path) -> None:
 
 
 def test_span_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    from knotopt.supports import minimal
-
     def too_large(*_: object) -> None:
         raise RequirementError("too large")
 
-    monkeypatch.setattr(minimal, "compile_span", too_large)
+    monkeypatch.setitem(FORMULATIONS, "span", replace(SPAN, compile=too_large))
     row = measure_knot(LIST[0], Settings(span=True)).rows[0]
     assert (row["span_status"], row["span_robots"], row["opening_status"]) == (
         "refused",

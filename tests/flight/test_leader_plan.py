@@ -16,8 +16,9 @@ from knotopt.cable.cut import crossing_free_cuts
 from knotopt.cable.notation import gauss_code
 from knotopt.catalogue.knots import shipped_knots
 from knotopt.diagram.families import random_knot, torus_knot
-from knotopt.flight.leader_plan import LeaderFaces, cable_state, flown_plan, laid_plan, leader_faces
+from knotopt.flight.leader_plan import LeaderFaces, flown_plan, laid_plan, leader_faces
 from knotopt.topology.actions import R1, C
+from knotopt.topology.cable_state import cable_state
 from knotopt.topology.extract import extract_state
 from knotopt.topology.legal import apply
 from knotopt.topology.plan import Plan, plan_graph

@@ -17,7 +17,6 @@ from scipy.optimize import lsq_linear
 
 from knotopt.catalogue.lookup import find_knot
 from knotopt.errors import KnotoptError
-from knotopt.flight.leader_plan import cable_state
 from knotopt.plot.figures import figure_bytes
 from knotopt.plot.layers import layered
 from knotopt.plot.packing import circle_packing
@@ -26,6 +25,7 @@ from knotopt.plot.rope import draw_rope, rope_curve
 from knotopt.plot.topology import plan_figure
 from knotopt.supports.lcf import best_cut
 from knotopt.topology.actions import R1, R2
+from knotopt.topology.cable_state import cable_state
 from knotopt.topology.legal import legal_actions, successors
 from knotopt.topology.plan import PlanGraph, plan_graph
 from knotopt.topology.state import TRIVIAL, RopeState

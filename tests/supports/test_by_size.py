@@ -24,9 +24,9 @@ from knotopt.errors import RequirementError
 from knotopt.supports.by_size import optimal_sets, sets_in_order
 from knotopt.supports.certificate import prove
 from knotopt.supports.minimal import all_minimal, minimal_supports
-from knotopt.supports.requirements import Formulation, Requirements
-from knotopt.verify.opening import check_opening
-from knotopt.verify.span import check_span
+from knotopt.supports.registry import FORMULATIONS
+from knotopt.supports.requirements import Requirements
+from knotopt.verify.registry import DEFINITIONS
 from tests.strategies import cables
 
 Supports = tuple[int, ...]
@@ -34,7 +34,7 @@ Supports = tuple[int, ...]
 
 def in_order(cable: Cable, asked: Requirements) -> list[Supports]:
     """All sets that are open by the definition: fewest, then most open, then first."""
-    check = check_span if asked.formulation is Formulation.SPAN else check_opening
+    check = DEFINITIONS[asked.formulation].check
     found = []
     for size in range(len(cable.path) - 1):
         for supports in combinations(range(2, len(cable.path)), size):
@@ -61,10 +61,8 @@ def test_a_row_rules_out_one_set(points: int) -> None:
 
 
 @settings(max_examples=25)
-@given(cables(max_size=5), st.sampled_from(list(Formulation)), st.data())
-def test_the_best_of_what_is_left(
-    cable: Cable, formulation: Formulation, data: st.DataObject
-) -> None:
+@given(cables(max_size=5), st.sampled_from(list(FORMULATIONS)), st.data())
+def test_the_best_of_what_is_left(cable: Cable, formulation: str, data: st.DataObject) -> None:
     asked = Requirements(formulation, data.draw(st.sampled_from(["0.25", "0.5", "1"])))
     ordered = in_order(cable, asked)
     likely = st.sampled_from(ordered[:6]) if ordered else st.nothing()
@@ -81,8 +79,8 @@ def test_the_best_of_what_is_left(
 
 
 @pytest.mark.parametrize("solver", list(BACKENDS))
-@pytest.mark.parametrize("formulation", list(Formulation))
-def test_every_solver_gives_the_next_set(formulation: Formulation, solver: str) -> None:
+@pytest.mark.parametrize("formulation", list(FORMULATIONS))
+def test_every_solver_gives_the_next_set(formulation: str, solver: str) -> None:
     cable = Cable(torus_knot(2, 3), "L+")
     ordered = in_order(cable, Requirements(formulation))
     for count in (1, 3):
@@ -95,7 +93,7 @@ def test_every_solver_gives_the_next_set(formulation: Formulation, solver: str) 
 
 def test_all_smallest_sets_against_exhaustive_search() -> None:
     for name in ("3", "4", "9"):
-        for formulation in Formulation:
+        for formulation in FORMULATIONS:
             cable = Cable(find_knot(name).diagram, "L+")
             asked = Requirements(formulation, 0.25)
             result = minimal_supports(cable, asked)
@@ -143,8 +141,8 @@ def test_smallest_sets_where_there_are_none_or_time_is_short(
     assert not_proven.sets == () and not not_proven.complete
 
 
-@pytest.mark.parametrize("formulation", list(Formulation))
-def test_the_sets_of_all_cuts_come_in_order(formulation: Formulation) -> None:
+@pytest.mark.parametrize("formulation", list(FORMULATIONS))
+def test_the_sets_of_all_cuts_come_in_order(formulation: str) -> None:
     """The k-th set is the k-th of an exhaustive list over eight cuts."""
     diagram = torus_knot(2, 3)
     asked = Requirements(formulation, 0.5)

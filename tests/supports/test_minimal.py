@@ -20,19 +20,20 @@ from knotopt.catalogue.lookup import find_knot
 from knotopt.diagram.families import torus_knot
 from knotopt.supports.minimal import MinimalSupports, all_minimal, minimal_supports
 from knotopt.supports.regions import Regions
-from knotopt.supports.requirements import Formulation, Requirements
+from knotopt.supports.registry import FORMULATIONS
+from knotopt.supports.requirements import Requirements
 from knotopt.supports.search import best_diagram, best_supports, supports_by_cut
 from knotopt.supports.team import compile_team
-from knotopt.verify.opening import check_opening, threading_cells
+from knotopt.verify.opening import threading_cells
 from knotopt.verify.regions import define_regions, lay
-from knotopt.verify.span import check_span
+from knotopt.verify.registry import DEFINITIONS
 from tests.strategies import cables
 
 LENGTHS = st.none() | st.sampled_from([1.0, 1.5, 2.0, 3.0, 4.5, 6.0])
 
 
 @st.composite
-def requirements(draw: st.DrawFn, count: int, formulation: Formulation) -> Requirements:
+def requirements(draw: st.DrawFn, count: int, formulation: str) -> Requirements:
     points = st.integers(2, count - 1)
     forbidden = draw(st.sets(points, max_size=2))
     forced = draw(st.sets(points, max_size=2)) - forbidden
@@ -50,7 +51,7 @@ def requirements(draw: st.DrawFn, count: int, formulation: Formulation) -> Requi
 
 def examine(cable: Cable, asked: Requirements, supports: tuple[int, ...]) -> Fraction | None:
     """Smallest squared opening if the set does what is asked (a large number if any), else None."""
-    check = check_span if asked.formulation is Formulation.SPAN else check_opening
+    check = DEFINITIONS[asked.formulation].check
     size = cable.diagram.size
     report = check(cable.path, size, supports, asked.openness, asked.threading)
     robots = [1, *supports, len(cable.path)]
@@ -92,7 +93,7 @@ def threadings(
             entry = cells.index(q)
             while cells[entry] in region.interior:
                 entry -= 1
-            if asked.formulation is Formulation.SPAN and entry in entries:
+            if asked.formulation == "span" and entry in entries:
                 continue
             entries.add(entry)
             other = next(t for t, cell in enumerate(cells) if cell == cells[entry] and t != entry)
@@ -106,10 +107,8 @@ def threadings(
 
 
 @settings(max_examples=60)
-@given(cables(max_size=5), st.sampled_from(list(Formulation)), st.data())
-def test_the_optimum_by_brute_force(
-    cable: Cable, formulation: Formulation, data: st.DataObject
-) -> None:
+@given(cables(max_size=5), st.sampled_from(list(FORMULATIONS)), st.data())
+def test_the_optimum_by_brute_force(cable: Cable, formulation: str, data: st.DataObject) -> None:
     assert_optimum_by_brute_force(cable, formulation, data)
 
 
@@ -118,20 +117,18 @@ def test_the_optimum_by_brute_force(
 @given(
     st.sampled_from(["3_1", "4_1"]),
     st.integers(0, 7),
-    st.sampled_from(list(Formulation)),
+    st.sampled_from(list(FORMULATIONS)),
     st.data(),
 )
 def test_the_optimum_of_knots_by_brute_force(
-    name: str, cut: int, formulation: Formulation, data: st.DataObject
+    name: str, cut: int, formulation: str, data: st.DataObject
 ) -> None:
     diagram = find_knot(name).diagram
     cable = Cable(diagram, crossing_free_cuts(diagram)[cut])
     assert_optimum_by_brute_force(cable, formulation, data)
 
 
-def assert_optimum_by_brute_force(
-    cable: Cable, formulation: Formulation, data: st.DataObject
-) -> None:
+def assert_optimum_by_brute_force(cable: Cable, formulation: str, data: st.DataObject) -> None:
     """Smallest, then largest smallest opening, then lexicographically first, by trying all."""
     count = len(cable.path)
     asked = data.draw(requirements(count, formulation))
@@ -180,7 +177,7 @@ def test_at_most_so_many_robots(cable: Cable, most: int) -> None:
 
 @pytest.mark.parametrize("solver", list(BACKENDS))
 def test_every_solver_gives_the_same_canonical_set(solver: str) -> None:
-    for formulation in Formulation:
+    for formulation in FORMULATIONS:
         asked = Requirements(formulation)
         cable = Cable(find_knot("4_1").diagram, "B-")
         expected = minimal_supports(cable, asked)
@@ -200,9 +197,9 @@ def test_lcf_as_start_and_what_it_closes() -> None:
     assert is_open.lcf.robots > is_open.robots
 
 
-@pytest.mark.parametrize("formulation", list(Formulation))
+@pytest.mark.parametrize("formulation", list(FORMULATIONS))
 @pytest.mark.parametrize("name", ["7_4", "8_19", "9_35"])
-def test_best_cut_is_the_best_of_all(name: str, formulation: Formulation) -> None:
+def test_best_cut_is_the_best_of_all(name: str, formulation: str) -> None:
     diagram = find_knot(name).diagram
     asked = Requirements(formulation)
     single = list(supports_by_cut(diagram, asked))
@@ -364,7 +361,7 @@ def test_reach_rows_on_larger_cables() -> None:
     for name in ("6_2", "7_6", "8_20"):
         for cut in crossing_free_cuts(find_knot(name).diagram):
             cable = Cable(find_knot(name).diagram, cut)
-            for formulation in Formulation:
+            for formulation in FORMULATIONS:
                 asked = Requirements(formulation, reach=source.choice([2.0, 3.0, 4.0]))
                 team = compile_team(Regions(cable), asked)
                 count = len(cable.path)

@@ -20,7 +20,7 @@ from knotopt.catalogue.knots import shipped_knots
 from knotopt.catalogue.table1_grids import table1_grids
 from knotopt.diagram.families import random_knot
 from knotopt.supports.lcf import best_cut
-from knotopt.supports.minimal import defined_regions, minimal_supports
+from knotopt.supports.minimal import minimal_supports
 from knotopt.supports.opening import compile_opening
 from knotopt.supports.regions import Regions
 from knotopt.supports.search import best_supports
@@ -88,7 +88,7 @@ def test_margins_are_the_smallest_opening(
 @given(cables(min_size=5, max_size=16), OPENNESS)
 def test_the_minimum_is_a_shortest_path(cable: Cable, openness: Fraction) -> None:
     """An algorithm of another kind, from the definition's clauses, finds the same number."""
-    regions = defined_regions(Regions(cable))
+    regions = define_regions(cable.path, cable.diagram.size)
     clauses = closing_clauses(cable.path, regions, openness)
     active = [region for region in regions if region.threaded_by is not None]
     instance = compile_opening(Regions(cable)).instance(float(openness**2))

@@ -66,7 +66,7 @@ def test_what_the_rules_exclude_is_in_no_open_set(
         dropped = data.draw(st.sets(st.integers(2, count - 1), max_size=count - 2))
         supports = [k for k in range(2, count) if k not in dropped]
         spans = list(pairwise([1, *supports, count]))
-        report = check_span(cable.path, cable.diagram.size, supports, openness, mode, regions)
+        report = check_span(cable.path, cable.diagram.size, supports, openness, mode)
         excluded = any(
             rules.exclude(chosen) for size in (1, 2, 3) for chosen in combinations(spans, size)
         )

@@ -10,7 +10,7 @@ import pytest
 from knotopt.cable.cable import Cable
 from knotopt.catalogue.lookup import find_knot
 from knotopt.errors import CutError, FileFormatError, UnknownKnotError
-from knotopt.flight.leader_plan import cable_state
+from knotopt.topology.cable_state import cable_state
 from knotopt.topology.goals import GoalSet, read_goal
 from knotopt.topology.state import TRIVIAL, RopeState, RopeStateError
 

@@ -58,9 +58,7 @@ def gallery_figure(cases: Sequence[Case], openness: Fraction) -> Figure:
 def _draw_closed(axes: Axes, cable: Cable, supports: Supports, openness: Fraction) -> None:
     """The shortest region that is not open: boundary, what is left of it, and what threads it."""
     regions = define_regions(cable.path, cable.diagram.size)
-    closed = check_opening(
-        cable.path, cable.diagram.size, supports, openness, MODE, regions
-    ).closed_regions
+    closed = check_opening(cable.path, cable.diagram.size, supports, openness, MODE).closed_regions
     if not closed:
         return
     region = min((regions[index] for index in closed), key=lambda each: len(each.walk))

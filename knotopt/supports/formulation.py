@@ -1,0 +1,89 @@
+"""What the package knows of a formulation, in one record each; `registry` lists them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Generic, Protocol, TypeVar
+
+from formulations.canonical import Program
+from formulations.instance import Instance
+from formulations.team import Team
+from knotopt.supports.regions import Regions
+from knotopt.supports.threading import Threading
+from knotopt.verify.definition import Checker
+from knotopt.verify.registry import DEFINITIONS
+
+P = TypeVar("P", bound=Program)
+P_co = TypeVar("P_co", bound=Program, covariant=True)
+
+
+class Compiler(Protocol[P_co]):
+    """Makes a formulation's program of a cable.
+
+    It takes the cable's regions, what threads them, what the team asks beyond openness, and the
+    turning points (1-based) of a first guess.
+    """
+
+    def __call__(
+        self, regions: Regions, mode: Threading, team: Team, start: tuple[int, ...], /
+    ) -> P_co: ...
+
+
+@dataclass(frozen=True)
+class Claim(Generic[P_co]):
+    """On one cable, `robots` - 1 robots are too few: what a certificate proves of each cut.
+
+    Attributes
+    ----------
+    program : Program
+        The formulation's, of this cable.
+    instance : Instance
+        The program's, for the openness.
+    openness : Fraction
+    robots : int
+    """
+
+    program: P_co
+    instance: Instance
+    openness: Fraction
+    robots: int
+
+
+@dataclass(frozen=True)
+class Formulation(Generic[P]):
+    """One formulation.
+
+    Attributes
+    ----------
+    name : str
+    words : str
+        What must survive, for the reader.
+    compile : Compiler
+    threading : tuple of Threading
+        The modes that it has, the default first.
+    proofs : mapping of str to callable
+        Makers of a certificate's proofs, by the method's name, the default first: each takes a
+        `Claim` and gives what goes into the certificate, or raises `CertificateError`.
+    openness : Fraction
+        Default r [grid steps].
+    threads_once : bool
+        Whether a strand threads a region only where it first turns inside.
+    is_taut : bool
+        Whether it is about the taut cable, straight between robots, which pictures then show.
+    """
+
+    name: str
+    words: str
+    compile: Compiler[P]
+    threading: tuple[Threading, ...]
+    proofs: Mapping[str, Callable[[Claim[P]], dict[str, Any]]]
+    openness: Fraction = Fraction(1, 2)
+    threads_once: bool = False
+    is_taut: bool = False
+
+    @property
+    def check(self) -> Checker:
+        """Examines a set by the definition, as the checkers' own table has it."""
+        return DEFINITIONS[self.name].check
