@@ -95,7 +95,8 @@ def fly_set(name: str, cable: Cable, supports: Supports) -> tuple[Row, Row]:
         plan = plan_flight(name, cable, supports, "file", schedule="optimised")
     except RequirementError as error:
         cells |= {"planned": False, "tied": False, "why": str(error)}
-        return cells, _times(began, time.perf_counter())
+        spent = {"planning_seconds": time.perf_counter() - began, "simulation_seconds": 0.0}
+        return cells, spent
     planned = time.perf_counter()
     trial = fly_trial(plan)
     simulated = time.perf_counter()
@@ -112,13 +113,9 @@ def fly_set(name: str, cable: Cable, supports: Supports) -> tuple[Row, Row]:
         "tension": trial.record.largest_tension,
         "cable_length": float(plan.lengths.sum()),
     }
-    return cells, _times(began, planned, simulated)
-
-
-def _times(began: float, planned: float, simulated: float | None = None) -> Row:
-    return {
+    return cells, {
         "planning_seconds": planned - began,
-        "simulation_seconds": 0.0 if simulated is None else simulated - planned,
+        "simulation_seconds": simulated - planned,
     }
 
 

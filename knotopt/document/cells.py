@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from knotopt.arrays import FloatArray
 from knotopt.document.model import NONE
 
+Numbers = ArrayLike | Sequence[float | None]
+"""What is not known is None or nan."""
 
-def mean(values: ArrayLike, digits: int = 2) -> str:
+
+def mean(values: Numbers, digits: int = 2) -> str:
     """The mean of what is known.
 
     Examples
@@ -21,7 +26,7 @@ def mean(values: ArrayLike, digits: int = 2) -> str:
     return f"{known.mean():.{digits}f}" if known.size else NONE
 
 
-def median(values: ArrayLike, digits: int = 1) -> str:
+def median(values: Numbers, digits: int = 1) -> str:
     """The median of what is known."""
     known = _known(values)
     return f"{np.median(known):.{digits}f}" if known.size else NONE
@@ -38,7 +43,7 @@ def whole(value: float) -> str:
     return NONE if np.isnan(value) else f"{int(value):,}"
 
 
-def largest(values: ArrayLike) -> str:
+def largest(values: Numbers) -> str:
     """The largest whole number."""
     known = _known(values)
     return whole(known.max()) if known.size else NONE
@@ -72,6 +77,6 @@ def yes(held: bool) -> str:
     return "yes" if held else "no"
 
 
-def _known(values: ArrayLike) -> FloatArray:
+def _known(values: Numbers) -> FloatArray:
     array: FloatArray = np.asarray(values, dtype=float).ravel()
     return array[~np.isnan(array)]

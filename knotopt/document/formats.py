@@ -16,15 +16,7 @@ from knotopt.errors import OutputError
 
 @dataclass(frozen=True)
 class Tabulation:
-    """Results for people, and all of them for programs.
-
-    Attributes
-    ----------
-    document : Document
-    names : tuple of str
-        Of the columns, in their order.
-    rows : tuple of Row
-    """
+    """Tables for people, and rows under the names of their columns for programs."""
 
     document: Document
     names: tuple[str, ...]

@@ -108,6 +108,12 @@ def table(
     return Table(tuple(heads), tuple(map(tuple, rows)), caption, sides)
 
 
+def table_of(rows: Sequence[Sequence[tuple[str, str]]], caption: str) -> Table:
+    """A table of rows whose cells come with their heads, which are the same in each."""
+    heads = [head for head, _ in rows[0]] if rows else []
+    return table(heads, [[cell for _, cell in row] for row in rows], caption)
+
+
 def tables(title: str, *parts: Table) -> Document:
     """A document of tables alone."""
     return Document(title, (), (Section("", parts),))

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict, fields
+from dataclasses import asdict, fields, replace
 from fractions import Fraction
 
 from formulations.backends import DEFAULT
 from formulations.solution import Limits
 from knotopt.cable.cut import Cut, crossing_free_cuts
 from knotopt.diagram.grid import GridDiagram
-from knotopt.document.cells import mean, percent, yes
+from knotopt.document.cells import mean, median, percent, yes
 from knotopt.document.columns import Column, Row, names
 from knotopt.document.formats import Tabulation
-from knotopt.document.model import table, tables
+from knotopt.document.model import table, table_of, tables
 from knotopt.path import measures
 from knotopt.path.measures import PathMeasures, both_methods, measure
 from knotopt.supports.search import CutSearch, best_supports
@@ -40,6 +40,14 @@ COLUMNS = (
 """Columns of a row. Robots count the lifting robots; times are of all cuts together, those of the
 smallest sets with the regions that they take from LCF."""
 PATH_KEYS = ("supports", "method", "cut", "robots")  # of a path, which the row says already
+PATH_HEADS = {
+    "stretch": "/ taut",
+    "smallest_radius": "radius",
+    "clearance": "clearance",
+    "opening": "opening",
+    "gap": "gap",
+}
+"""Measures of a path of which tables show medians, and their heads."""
 HEADS = (
     *("knot", "before"),
     *(head for method in HEURISTICS for head in (method.head, "open")),
@@ -145,12 +153,11 @@ def tabulated(rows: Sequence[Row]) -> Tabulation:
     lines = [_display(row) for row in rows]
     if len(rows) > 1:
         lines.append(_averages(rows))
-    paths = measures.summary(PathMeasures(**path) for row in rows for path in row["paths"])
     medians = f"Medians over {len(rows)} knot{'' if len(rows) == 1 else 's'}. {measures.NOTE}"
     document = tables(
         "",
         table(HEADS, lines, NOTE, "l" + "r" * (len(HEADS) - 1)),
-        table(measures.SUMMARY_HEADS, paths, medians, "l" + "r" * 9),
+        replace(table_of(_paths(rows), medians), sides="l" + "r" * (4 + len(PATH_HEADS))),
     )
     path_names = [
         f"{supports}_{method}_{field.name}"
@@ -160,6 +167,33 @@ def tabulated(rows: Sequence[Row]) -> Tabulation:
         if field.name not in PATH_KEYS
     ]
     return Tabulation(document, (*names(COLUMNS), *path_names), tuple(map(_flat, rows)))
+
+
+def _paths(rows: Sequence[Row]) -> list[list[tuple[str, str]]]:
+    """Medians over the rows, by supports and method."""
+    groups: dict[tuple[str, str], list[Row]] = {}
+    for path in (path for row in rows for path in row["paths"]):
+        groups.setdefault((path["supports"], path["method"]), []).append(path)
+    return [
+        [
+            ("supports", supports),
+            ("method", method),
+            ("done", _count([path["status"] in ("solved", "converged") for path in paths])),
+            ("same knot", _count([path["same_diagram"] for path in paths])),
+            *path_medians(paths),
+            ("ms", median([p["milliseconds"] for p in paths], 0)),
+        ]
+        for (supports, method), paths in groups.items()
+    ]
+
+
+def path_medians(paths: Sequence[Row]) -> list[tuple[str, str]]:
+    """Medians of what is measured of paths, with their heads."""
+    return [(head, median([path[name] for path in paths], 3)) for name, head in PATH_HEADS.items()]
+
+
+def _count(held: Sequence[bool]) -> str:
+    return f"{sum(held)} of {len(held)}"
 
 
 def _flat(row: Row) -> Row:

@@ -6,11 +6,10 @@ three by one more line of `PROGRAMS`.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterable
+from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, ClassVar
 
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import Cut
@@ -22,10 +21,13 @@ from knotopt.supports.requirements import Requirements
 from knotopt.supports.threading import Threading
 
 Supports = tuple[int, ...]
+_FEWER = "whether {} has fewer robots than any open set"
+STATUSES = "optimal, feasible, infeasible, unknown, error; refused: the diagram is too large"
+_POINTS = "turning points, from 1, without the ends"
 
 
 @dataclass(frozen=True)
-class Method(ABC):
+class Method:
     """What chooses a set of supports, and has columns in tables.
 
     Attributes
@@ -34,31 +36,34 @@ class Method(ABC):
         With which the names of its columns begin.
     head : str
         Over its robots, where a table is shown.
+    words : str
+        Which set it is, in the meaning of a column.
+    setting : str
+        The setting of an atlas that asks for it; "": it is always there.
     """
 
     key: str
     head: str
-
-    @property
-    @abstractmethod
-    def words(self) -> str:
-        """Its set, in the meaning of a column."""
+    words: str
+    setting: str = ""
+    known: ClassVar[tuple[Column, ...]] = ()
 
     def columns(self, *chosen: str) -> tuple[Column, ...]:
         """Some of its columns, by their names without the key."""
-        known = {column.name: column for column in self._columns()}
-        return tuple(replace(known[name], name=f"{self.key}_{name}") for name in chosen)
+        known = {column.name: column for column in self.known}
+        return tuple(
+            Column(
+                f"{self.key}_{name}",
+                known[name].kind,
+                known[name].meaning.format(self.words),
+                known[name].optional or bool(self.setting),
+            )
+            for name in chosen
+        )
 
     def cells(self, **cells: Any) -> dict[str, Any]:
         """The cells under its columns, by their names without the key."""
         return {f"{self.key}_{name}": value for name, value in cells.items()}
-
-    @abstractmethod
-    def _columns(self) -> Iterator[Column]:
-        yield Column("robots", int, f"robots of {self.words}")
-        yield Column("cut", str, f"first cut where {self.words} has the fewest robots")
-        points = "turning points, from 1, without the ends"
-        yield Column("supports", Supports, f"{self.words}: {points}")
 
 
 @dataclass(frozen=True)
@@ -66,50 +71,43 @@ class Heuristic(Method):
     """The Loop Consistency Filter, plain or layered: no program, and no promise."""
 
     is_layered: bool = False
-
-    @property
-    def words(self) -> str:
-        """Its set, in the meaning of a column."""
-        return "LCF's layered set" if self.is_layered else "the Loop Consistency Filter's set"
+    known = (
+        Column("robots", int, "robots of {}"),
+        Column("cut", str, "first cut where {} has the fewest robots"),
+        Column("supports", Supports, f"{{}}: {_POINTS}"),
+        Column("open", bool, "whether {} is open, turning-point"),
+        Column("open_over_under", bool, "whether {} is open, over-under"),
+        Column("below", bool, f"{_FEWER}, turning-point"),
+        Column("below_over_under", bool, f"{_FEWER}, over-under"),
+        Column("seconds", float, "{}, on all cuts together [s]"),
+    )
 
     def best(self, diagram: GridDiagram, cuts: Iterable[Cut]) -> LcfResult:
         """Its set on the cut where it has the fewest robots, of several the first."""
         found = lcf_by_cut(diagram, layered=self.is_layered, cuts=cuts)
         return min(found.values(), key=lambda result: result.robots)
 
-    def _columns(self) -> Iterator[Column]:
-        yield from super()._columns()
-        for judge, name in JUDGES.items():
-            yield Column(f"open{name}", bool, f"whether {self.words} is open{judge.where}")
-            fewer = "has fewer robots than any open set"
-            yield Column(f"below{name}", bool, f"whether {self.words} {fewer}{judge.where}")
-        yield Column("seconds", float, f"{self.words}, on all cuts together [s]")
-
 
 @dataclass(frozen=True)
 class SmallestSet(Method):
-    """The smallest set by a formulation, with what threads its regions.
+    """The smallest set by a formulation, by its name, with what threads its regions."""
 
-    Attributes
-    ----------
-    formulation : str
-        Its name.
-    threading : Threading
-    where : str
-        What tells it from the others, in the meaning of a column.
-    setting : str
-        The setting of an atlas that asks for it; "": it is always there.
-    """
-
-    formulation: str
-    threading: Threading
-    where: str
-    setting: str = ""
-
-    @property
-    def words(self) -> str:
-        """Its set, in the meaning of a column."""
-        return f"a smallest open set{self.where}"
+    formulation: str = "opening"
+    threading: Threading = Threading.TURNING_POINT
+    known = (
+        Column("robots", int, "robots of a smallest open set, {}", True),
+        Column("cut", str, "first cut where a smallest open set has the fewest robots, {}"),
+        Column("supports", Supports, f"a smallest open set, {{}}: {_POINTS}", True),
+        Column("bound", int, "no open set has fewer robots, {}", True),
+        Column("status", str, STATUSES),
+        Column("rows", int, "rows of the 0-1 program, {}"),
+        Column("instance", str, "first 16 digits of the SHA-256 of that program"),
+        Column("proven", bool, "whether no cut has a smaller open set, {}"),
+        Column("same_cut", int, "robots of a smallest open set on LCF's cut, {}"),
+        Column("open", bool, "whether the set is open, {}"),
+        Column("seconds", float, "compile, build and solve, {} [s]"),
+        Column("solve_seconds", float, "the solver alone, {} [s]"),
+    )
 
     @property
     def is_usual(self) -> bool:
@@ -121,46 +119,19 @@ class SmallestSet(Method):
         return Requirements(self.formulation, openness, self.threading)
 
     def is_met(self, cable: Cable, supports: Supports, openness: Fraction) -> bool:
-        """Whether the independent checker finds a set open, from the definition.
-
-        Parameters
-        ----------
-        cable : Cable
-        supports : tuple of int
-            Without the ends.
-        openness : Fraction
-            r [grid steps].
-        """
+        """Whether the independent checker finds a set open by the definition, r = `openness`."""
         check = find_formulation(self.formulation).check
-        size = cable.diagram.size
-        return check(cable.path, size, supports, openness, self.threading).is_open
-
-    def _columns(self) -> Iterator[Column]:
-        where, optional = self.where, bool(self.setting)
-        for column in super()._columns():
-            yield replace(column, optional=True)
-        yield Column("bound", int, f"no open set has fewer robots{where}", optional=True)
-        refused = ", or refused: the diagram is too large" if optional else ""
-        status = f"optimal, feasible, infeasible, unknown or error{refused}"
-        yield Column("status", str, status, optional)
-        yield Column("rows", int, f"rows of the 0-1 program{where}", optional)
-        yield Column("instance", str, "first 16 digits of the SHA-256 of that program", optional)
-        yield Column("proven", bool, f"whether no cut has a smaller open set{where}")
-        yield Column("same_cut", int, f"robots of {self.words}, on LCF's cut")
-        yield Column("open", bool, f"whether the set is open{where}", optional)
-        yield Column("seconds", float, f"compile, build and solve{where} [s]", optional)
-        yield Column("solve_seconds", float, f"the solver alone{where} [s]", optional)
+        return check(cable.path, cable.diagram.size, supports, openness, self.threading).is_open
 
 
-LCF = Heuristic("lcf", "LCF")
-LAYERED = Heuristic("layered", "layered", is_layered=True)
+LCF = Heuristic("lcf", "LCF", "the Loop Consistency Filter's set")
+LAYERED = Heuristic("layered", "layered", "LCF's layered set", is_layered=True)
 HEURISTICS = (LCF, LAYERED)
 
-OPENING = SmallestSet("opening", "opening", "opening", Threading.TURNING_POINT, ", turning-point")
-OVER_UNDER = SmallestSet(
-    "over_under", "over-under", "opening", Threading.OVER_UNDER, ", over-under"
-)
-SPAN = SmallestSet("span", "span", "span", Threading.OVER_UNDER, ", `span`", "span")
+_OVER_UNDER = Threading.OVER_UNDER
+OPENING = SmallestSet("opening", "opening", "turning-point")
+OVER_UNDER = SmallestSet("over_under", "over-under", "over-under", threading=_OVER_UNDER)
+SPAN = SmallestSet("span", "span", "`span`", "span", "span", _OVER_UNDER)
 
 PROGRAMS = (OPENING, OVER_UNDER, SPAN)
 """The smallest sets of an atlas, in the order of their columns."""

@@ -18,13 +18,12 @@ from knotopt.tables.methods import HEURISTICS, LCF, OPENING, PROGRAMS, SPAN, USU
 NEW = """
 from dataclasses import replace
 from knotopt.supports.registry import FORMULATIONS
-from knotopt.supports.threading import Threading
 from knotopt.tables import methods
 from knotopt.verify.registry import DEFINITIONS
 
 FORMULATIONS["loops"] = replace(FORMULATIONS["opening"], name="loops")
 DEFINITIONS["loops"] = replace(DEFINITIONS["opening"], name="loops")
-loops = methods.SmallestSet("loops", "loops", "loops", Threading.TURNING_POINT, ", `loops`")
+loops = methods.SmallestSet("loops", "loops", "`loops`", formulation="loops")
 methods.PROGRAMS += (loops,)
 methods.USUAL_PROGRAMS += (loops,)
 
