@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from html import escape
 
 from knotopt.document.model import Block, Document, Picture, Table, pieces
-from knotopt.document.pages import digest, filled, part, style
+from knotopt.document.pages import filled, page, part
 
 
 def html(document: Document, pictures: Mapping[str, bytes]) -> str:
@@ -24,7 +24,6 @@ def html(document: Document, pictures: Mapping[str, bytes]) -> str:
     str
         HTML that loads nothing and runs nothing.
     """
-    css = style(__package__, "document.css")
     facts = "".join(
         f"<div><dt>{_text(name)}</dt><dd>{_text(value)}</dd></div>"
         for name, value in document.facts
@@ -43,14 +42,13 @@ def html(document: Document, pictures: Mapping[str, bytes]) -> str:
         for number, section in enumerate(document.sections, 1)
     )
     parts = {
-        "policy": f"default-src 'none'; img-src data:; style-src '{digest(css)}'",
         "title": escape(document.title),
         "facts": facts,
         "contents": contents,
         "sections": sections,
-        "style": css,
     }
-    return filled(part(__package__, "document.html"), parts) + "\n"
+    body = filled(part(__package__, "document.html"), parts)
+    return page(document.title, body, part(__package__, "document.css")) + "\n"
 
 
 def _block(block: Block, pictures: Mapping[str, bytes], name: str) -> str:

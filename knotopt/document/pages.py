@@ -1,7 +1,4 @@
-"""What pages of HTML are put together from: files of a package, and a policy that names them.
-
-`page.css` is the style that all pages share.
-"""
+"""What every page of HTML is put together from: a shell, a style, a policy, files of a package."""
 
 from __future__ import annotations
 
@@ -9,7 +6,29 @@ import base64
 import hashlib
 import re
 from collections.abc import Mapping
+from html import escape
 from importlib import resources
+
+
+def page(title: str, body: str, style: str, script: str = "") -> str:
+    """A page that loads nothing, and runs nothing but its own script.
+
+    Parameters
+    ----------
+    title : str
+        Shown as it is.
+    body, style, script : str
+        HTML, with the script if there is one; CSS after that of all pages; JavaScript.
+    """
+    css = part(__package__, "page.css") + "\n" + style
+    runs = f"script-src '{_digest(script)}'; " if script else ""
+    parts = {
+        "policy": f"default-src 'none'; img-src data:; {runs}style-src '{_digest(css)}'",
+        "title": escape(title),
+        "style": css,
+        "body": body,
+    }
+    return filled(part(__package__, "page.html"), parts)
 
 
 def part(package: str, name: str) -> str:
@@ -17,16 +36,11 @@ def part(package: str, name: str) -> str:
     return resources.files(package).joinpath(name).read_text(encoding="utf-8").strip()
 
 
-def style(package: str, name: str) -> str:
-    """The style that all pages share, and after it that of a package's page."""
-    return part(__package__, "page.css") + "\n" + part(package, name)
-
-
 def filled(template: str, parts: Mapping[str, str]) -> str:
     """A template with the parts in place of their names in double braces."""
     return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], template)
 
 
-def digest(text: str) -> str:
+def _digest(text: str) -> str:
     """A source of a content security policy: this very text and no other."""
     return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode("ascii")

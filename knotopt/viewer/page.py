@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from knotopt.arrays import IntArray
-from knotopt.document.pages import digest, filled, part, style
+from knotopt.document.pages import filled, page, part
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.record import FlightRecord
 from knotopt.supports.regions import Regions
@@ -61,22 +61,20 @@ def flight_page(
     """
     scripts = (part(__package__, f"{name}.js") for name in SCRIPTS)
     script = '(() => {\n"use strict";\n' + "\n".join(scripts) + "\n})();"
-    css = style(__package__, "flight.css")
+    title = f"Flight of {plan.name}"
     parts = {
-        "policy": f"default-src 'none'; img-src data:; script-src '{digest(script)}'; "
-        f"style-src '{digest(css)}'",
-        "title": escape(f"Flight of {plan.name}"),
+        "title": escape(title),
         "facts": _facts(plan),
         "notes": "".join(f"<li>{escape(note)}</li>" for note in plan.notes),
         "measures": _measures(measures),
         "planned": _planned(plan),
         "events": _events(events),
-        "style": css,
         "script": script,
         # No "<" is left that could end the element early.
         "data": json.dumps(_data(plan, records, downloads or {})).replace("<", "\\u003c"),
     }
-    return filled(part(__package__, "page.html"), parts)
+    body = filled(part(__package__, "flight.html"), parts)
+    return page(title, body, part(__package__, "flight.css"), script)
 
 
 def _data(
