@@ -7,7 +7,7 @@ import re
 from knotopt.document.model import Block, Document, Picture, Table, pieces
 
 # An underscore inside a word, as in 8_19, means nothing.
-_SPECIAL = re.compile(r"[\\*|\[\]#`&<>~]|(?<![A-Za-z0-9])_|_(?![A-Za-z0-9])")
+_SPECIAL = re.compile(r"[\\*|\[\]#`&<~]|^>|(?<![A-Za-z0-9])_|_(?![A-Za-z0-9])")
 # Not every reader of Markdown takes a backslash before these.
 _ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", "~": "&#126;"}
 
@@ -19,18 +19,12 @@ def markdown(document: Document, ending: str = "png") -> str:
         parts += ["\n".join(f"- {_text(name)}: {_text(value)}" for name, value in document.facts)]
     for section in document.sections:
         parts += [f"## {_text(section.title)}"] if section.title else []
-        parts += [_block(block, ending) for block in section.blocks]
+        parts += [markdown_block(block, ending) for block in section.blocks]
     return "\n\n".join(parts) + "\n"
 
 
-def markdown_table(block: Table) -> str:
-    """The lines of a table, without its caption."""
-    rows = ["".join("|---:" if side == "r" else "|---" for side in block.sides) + "|"]
-    rows += [f"| {' | '.join(map(_cell, row))} |" for row in block.rows]
-    return "\n".join([f"| {' | '.join(map(_cell, block.heads))} |", *rows])
-
-
-def _block(block: Block, ending: str) -> str:
+def markdown_block(block: Block, ending: str = "png") -> str:
+    """One block of a document."""
     match block:
         case str():
             return _text(block)
@@ -41,7 +35,13 @@ def _block(block: Block, ending: str) -> str:
             return f"{shown}\n\n*{_text(block.caption)}*"
         case Table():
             caption = f"\n\n{_text(block.caption)}" if block.caption else ""
-            return markdown_table(block) + caption
+            return _table(block) + caption
+
+
+def _table(block: Table) -> str:
+    rows = ["".join("|---:" if side == "r" else "|---" for side in block.sides) + "|"]
+    rows += [f"| {' | '.join(map(_cell, row))} |" for row in block.rows]
+    return "\n".join([f"| {' | '.join(map(_cell, block.heads))} |", *rows])
 
 
 def _text(text: str) -> str:
