@@ -81,7 +81,14 @@ def _scratch(folder: Path, page: Path) -> dict[str, str]:
     [
         (
             "formulation",
-            ["formulations/held.py", "knotopt/supports/held.py", "knotopt/verify/held.py"],
+            [
+                "formulations/pinned.py",
+                "knotopt/supports/pinned.py",
+                "knotopt/verify/pinned.py",
+                "tests/supports/test_pinned.py",
+                "tests/supports/test_formulations.py",
+                "tests/test_architecture.py::test_every_import_is_in_the_table",
+            ],
         ),
         (
             "solver",

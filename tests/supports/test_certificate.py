@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import csv
 import json
 from collections.abc import Callable
@@ -42,35 +41,6 @@ def test_the_checkers_cables_are_the_cables(diagram: GridDiagram) -> None:
     assert verify_cable.crossing_free_cuts(marks) == {str(cut) for cut in cuts}
     for cut in cuts:
         assert verify_cable.cable_path(marks, str(cut)) == list(Cable(diagram, cut).path)
-
-
-MEASURING = (  # of curves, in floating point
-    "alexander.py",
-    "crossings.py",
-    "flight.py",
-    "flight_limits.py",
-    "flight_places.py",
-    "flight_word.py",
-    "path.py",
-)
-OF_STATES = ("flight_places.py", "flight_states.py")  # of a rope, which no flight is made from
-
-
-def test_the_checkers_import_nothing_they_check() -> None:
-    """Nor anything inexact, but for those that measure curves."""
-    for file in (ROOT / "knotopt" / "verify").glob("*.py"):
-        for node in ast.walk(ast.parse(file.read_text())):
-            names = [node.module or ""] if isinstance(node, ast.ImportFrom) else []
-            if isinstance(node, ast.Import):
-                names = [alias.name for alias in node.names]
-            for name in names:
-                package = name.split(".")
-                assert package[0] not in ("formulations", "pysat"), (file, name)
-                inexact = package[0] in ("numpy", "scipy", "shapely")
-                assert not inexact or file.name in MEASURING, (file, name)
-                if package[0] == "knotopt":
-                    states = file.name in OF_STATES and package[1] == "topology"
-                    assert package[1] in ("verify", "errors", "arrays") or states, (file, name)
 
 
 def test_a_certificate_is_accepted(certificate: str) -> None:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations, pairwise
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -195,6 +197,16 @@ def test_lcf_as_start_and_what_it_closes() -> None:
     is_open = minimal_supports(Cable(find_knot("7 Var2").diagram, "L+"))
     assert is_open.solution.start_accepted is True and is_open.lcf_report.is_open
     assert is_open.lcf.robots > is_open.robots
+
+
+@pytest.mark.parametrize("formulation", list(FORMULATIONS))
+def test_the_check_takes_nothing_but_the_cable_from_the_maker(formulation: str) -> None:
+    cable = Cable(find_knot("5").diagram, "L+")
+    result = minimal_supports(cable, Requirements(formulation))
+    bare: Any = SimpleNamespace(cable=cable)  # in the place of regions
+    again = replace(result, lcf=replace(result.lcf, regions=bare))
+    assert (again.report, again.lcf_report) == (result.report, result.lcf_report)
+    assert result.report.is_open and not result.lcf_report.is_open
 
 
 @pytest.mark.parametrize("formulation", list(FORMULATIONS))
