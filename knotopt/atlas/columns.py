@@ -18,7 +18,7 @@ from knotopt.atlas.schema import (
     TIMES,
 )
 from knotopt.document.columns import Column
-from knotopt.tables.methods import LAYERED, LCF, PROGRAMS, USUAL_PROGRAMS
+from knotopt.tables.methods import LAYERED, LCF, PROGRAMS, USUAL_PROGRAMS, columns_of
 
 NUMBER = Column("number", int, "the knot's place in the list, from 1")
 KNOT = Column("knot", str, "name; of a grid from a file, the file's name")
@@ -77,13 +77,7 @@ FILES: dict[str, tuple[Column, ...]] = {
             *("robots", "supports", "open", "open_over_under", "below", "below_over_under")
         ),
         *LAYERED.columns("robots", "supports", "open", "open_over_under"),
-        *(
-            column
-            for method in PROGRAMS
-            for column in method.columns(
-                *("robots", "bound", "status", "supports", "rows", "instance")
-            )
-        ),
+        *columns_of(PROGRAMS, "robots", "bound", "status", "supports", "rows", "instance"),
         Column(
             "checked",
             bool,
@@ -95,7 +89,7 @@ FILES: dict[str, tuple[Column, ...]] = {
     TIMES: (
         *CUT_KEYS,
         Column("lcf_seconds", float, "LCF and its layered set [s]"),
-        *(column for method in PROGRAMS for column in method.columns("seconds", "solve_seconds")),
+        *columns_of(PROGRAMS, "seconds", "solve_seconds"),
         Column("paths_seconds", float, "four paths and their checks [s]", True),
         Column("check_seconds", float, "the independent checkers [s]", True),
         Column("worker_mib", float, "largest memory of the worker's process so far [MiB]"),
@@ -153,17 +147,13 @@ FILES: dict[str, tuple[Column, ...]] = {
     FLIGHTS: (
         *_FLIGHT_KEYS,
         ROBOTS,
-        *(column for method in USUAL_PROGRAMS for column in method.columns("open")),
+        *columns_of(USUAL_PROGRAMS, "open"),
         *FLOWN,
     ),
     FLIGHT_TIMES: (
         *_FLIGHT_KEYS,
-        Column(
-            "planning_seconds", float, "planning; 0 where another set of the cut is the same [s]"
-        ),
-        Column(
-            "simulation_seconds", float, "simulating and judging; 0 likewise, or without a plan [s]"
-        ),
+        Column("planning_seconds", float, "0 where another set of the cut is the same [s]"),
+        Column("simulation_seconds", float, "with judging; 0 likewise, or without a plan [s]"),
     ),
 }
 """Columns of each file, by its name. Rows are sorted by `number`, then by cut, then in the order in

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from knotopt.document.model import Block, Document, Picture, Table, pieces
@@ -13,11 +14,13 @@ _HEAD = r"""\documentclass[a4paper,10pt]{article}
 """
 _SPECIAL = str.maketrans(
     {
+        "\0": "{}",  # no text has it: see `_escaped`
         "\\": r"\textbackslash{}",
         "{": r"\{",
         "}": r"\}",
         "~": r"\textasciitilde{}",
         "^": r"\textasciicircum{}",
+        "`": r"\textasciigrave{}",
         '"': "''",
         "<": r"\textless{}",
         ">": r"\textgreater{}",
@@ -111,13 +114,16 @@ def _row(cells: list[str]) -> str:
 
 
 def _text(text: str) -> str:
-    return "".join(
+    written = "".join(
         # A path may be broken where a line ends.
         f"\\texttt{{{_escaped(piece).replace('/', '/' + BREAK)}}}" if is_code else _escaped(piece)
         for is_code, piece in pieces(text)
     )
+    # After the end of a row, or an \item, these would be part of the command.
+    return "{}" + written if written.startswith(("[", "*")) else written
 
 
 def _escaped(text: str) -> str:
+    apart = re.sub("-(?=-)", "-\0", text)  # hyphens that stay hyphens
     # Names of the user's files may have letters that the fonts lack.
-    return text.translate(_SPECIAL).encode("ascii", "replace").decode("ascii")
+    return apart.translate(_SPECIAL).encode("ascii", "replace").decode("ascii")

@@ -19,7 +19,15 @@ from knotopt.path import measures
 from knotopt.path.measures import PathMeasures, both_methods, measure
 from knotopt.supports.search import CutSearch, best_supports
 from knotopt.supports.support_set import SupportSet
-from knotopt.tables.methods import HEURISTICS, LAYERED, LCF, OPENING, USUAL_PROGRAMS, SmallestSet
+from knotopt.tables.methods import (
+    HEURISTICS,
+    LAYERED,
+    LCF,
+    OPENING,
+    USUAL_PROGRAMS,
+    SmallestSet,
+    columns_of,
+)
 
 COLUMNS = (
     Column("knot", str, "name"),
@@ -31,11 +39,7 @@ COLUMNS = (
     Column("robots_before", int, "robots at all 2N turning points"),
     *LCF.columns("robots", "cut", "open", "seconds"),
     *LAYERED.columns("robots", "cut", "open"),
-    *(
-        column
-        for method in USUAL_PROGRAMS
-        for column in method.columns("robots", "cut", "proven", "seconds")
-    ),
+    *columns_of(USUAL_PROGRAMS, "robots", "cut", "proven", "seconds"),
 )
 """Columns of a row. Robots count the lifting robots; times are of all cuts together, those of the
 smallest sets with the regions that they take from LCF."""

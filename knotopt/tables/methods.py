@@ -66,6 +66,11 @@ class Method:
         return {f"{self.key}_{name}": value for name, value in cells.items()}
 
 
+def columns_of(methods: Iterable[Method], *chosen: str) -> tuple[Column, ...]:
+    """The same columns of several methods, one method after the other."""
+    return tuple(column for method in methods for column in method.columns(*chosen))
+
+
 @dataclass(frozen=True)
 class Heuristic(Method):
     """The Loop Consistency Filter, plain or layered: no program, and no promise."""

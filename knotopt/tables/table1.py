@@ -22,7 +22,7 @@ from knotopt.path.result import PathResult
 from knotopt.supports.lcf import LcfResult, best_cut
 from knotopt.supports.minimal import MinimalSupports, minimal_supports
 from knotopt.supports.search import best_supports
-from knotopt.tables.methods import LCF, OPENING, USUAL_PROGRAMS
+from knotopt.tables.methods import LCF, OPENING, USUAL_PROGRAMS, columns_of
 
 Placed = tuple[tuple[int, int, int], ...]
 """[index on the path (1-based), column, row] of each support."""
@@ -53,11 +53,7 @@ COLUMNS = (
     Column("supports", Placed, "LCF's: index on the path (1-based), column, row of each"),
     Column("openness", float, "r of every formulation [grid steps]"),
     *LCF.columns("open"),
-    *(
-        column
-        for method in USUAL_PROGRAMS
-        for column in method.columns("same_cut", "robots", "cut", "supports")
-    ),
+    *columns_of(USUAL_PROGRAMS, "same_cut", "robots", "cut", "supports"),
     Column("solver", str, "of the smallest sets"),
     Column("proven", bool, "whether each of them is, on every cut"),
     Column("grid", tuple[tuple[int, int], ...], "marks of the grid diagram: column, row of each"),
