@@ -160,9 +160,9 @@ def agrees_with_definition(cable: Cable, row: Row, settings: Settings) -> bool:
     settings : Settings
     """
     smallest = all(
-        method.is_met(cable, supports, settings.r)
+        method.is_met(cable, row[f"{method.key}_supports"] or (), settings.r)
         for method in PROGRAMS
-        if (supports := row[f"{method.key}_supports"]) is not None
+        if row[f"{method.key}_supports"] is not None or not method.setting
     )
     return smallest and all(
         judge.is_met(cable, row[f"{method.key}_supports"], settings.r)
