@@ -15,8 +15,17 @@ from knotopt.plot.path_figures import braid_figure, path_figure, relaxation_figu
 from knotopt.tables.table1 import Table1Result, tabulated, tabulated_paths
 
 
-def write_table1(folder: Path, results: Sequence[Table1Result]) -> list[Path]:
+def write_table1(
+    folder: Path, results: Sequence[Table1Result], picture_format: str = "png"
+) -> list[Path]:
     """Write five figures for every row, and both tables as CSV and Markdown.
+
+    Parameters
+    ----------
+    folder : Path
+    results : sequence of Table1Result
+    picture_format : str
+        Suffix of the figures' files.
 
     Returns
     -------
@@ -31,7 +40,7 @@ def write_table1(folder: Path, results: Sequence[Table1Result]) -> list[Path]:
     written = []
     for result in results:
         for stem, figure in _figures(result).items():
-            written.append(folder / "figures" / f"{stem}.png")
+            written.append(folder / "figures" / f"{stem}.{picture_format}")
             save_figure(figure, written[-1])
     for stem, table in (("table1", tabulated(results)), ("table1_paths", tabulated_paths(results))):
         for suffix in (".csv", ".md"):
