@@ -79,11 +79,7 @@ FILES: dict[str, tuple[Column, ...]] = {
         *LAYERED.columns("robots", "supports", "open", "open_over_under"),
         *columns_of(PROGRAMS, "robots", "bound", "status", "supports", "rows", "instance"),
         Column(
-            "checked",
-            bool,
-            "whether the independent checkers find the smallest sets open, and LCF's as said here; "
-            "empty where they were not asked",
-            True,
+            "checked", bool, "whether the checkers find the sets as said; empty: not asked", True
         ),
     ),
     TIMES: (
@@ -115,27 +111,15 @@ FILES: dict[str, tuple[Column, ...]] = {
     # One program by one solver, the solvers in the order asked for.
     SOLVERS: (
         *_SOLVER_KEYS,
-        Column(
-            "status",
-            str,
-            "optimal, feasible, infeasible, unknown, error, or refused: no program for this solver",
-        ),
+        Column("status", str, "as of the atlas; refused: it does not take this program"),
         Column("said", str, "the solver's own words"),
         Column("objective", int, "robots of the set it returned", True),
         Column("bound", int, "no set has fewer robots, it says", True),
         Column("proven", bool, "whether it says that its set is smallest, or that there is none"),
         Column("rows", int, "rows of the 0-1 program"),
+        Column("satisfies", bool, "whether its set satisfies every row; false: error", True),
         Column(
-            "satisfies",
-            bool,
-            "whether its set satisfies every row; empty without a set, false where status is error",
-            True,
-        ),
-        Column(
-            "meets_definition",
-            bool,
-            "whether the independent checker finds its set open; empty where it was not asked",
-            True,
+            "meets_definition", bool, "whether the checker finds it open; empty: not asked", True
         ),
     ),
     SOLVER_TIMES: (
