@@ -14,7 +14,7 @@ from knotopt.catalogue.knots import shipped_knots
 from knotopt.supports.lcf import lcf
 from knotopt.supports.minimal import compile_program
 from knotopt.supports.requirements import Requirements
-from knotopt.tables.comparison import is_open
+from knotopt.tables.methods import OPENING
 
 THREADINGS = {"opening": None, "opening_over_under": "over-under", "span": None}
 
@@ -26,7 +26,7 @@ def measure(case: Case) -> Result:
     """
     warm("cp-sat")
     knot = shipped_knots()[case["knot"]]
-    opening = Requirements("opening")
+    openness = OPENING.requirements().openness
     cp_sat = get_backend("cp-sat")
     result: Result = {"crossing_number": knot.crossing_number, "cuts": {}}
     for cut in crossing_free_cuts(knot.diagram):
@@ -35,9 +35,9 @@ def measure(case: Case) -> Result:
         row = {
             "baseline": seeded.baseline,
             "lcf": seeded.robots,
-            "lcf_open": is_open(seeded, opening),
+            "lcf_open": OPENING.is_met(seeded.cable, seeded.supports, openness),
             "layered": layered.robots,
-            "layered_open": is_open(layered, opening),
+            "layered_open": OPENING.is_met(layered.cable, layered.supports, openness),
         }
         for name, threading in THREADINGS.items():
             asked = Requirements(name.split("_")[0], threading=threading)

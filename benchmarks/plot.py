@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from knotopt.document.markdown import markdown_block
+from knotopt.document.model import table_of
 from knotopt.files import write_atomically
 from knotopt.plot.figures import PANEL, save_figure
 
@@ -30,10 +32,7 @@ def load(name: str) -> tuple[dict[str, Any], list[dict[str, Any]]]:
 
 def catalogue_summary(rows: list[dict[str, Any]]) -> str:
     """Table: robots by crossing number."""
-    lines = [
-        "| crossings | knots | cuts | baseline | LCF | LCF, best cut | layered | ms a cut |",
-        "|---|---|---|---|---|---|---|---|",
-    ]
+    lines = []
     groups: dict[str, list[dict[str, Any]]] = defaultdict(list)
     for row in rows:
         groups[str(row["crossing_number"])].append(row)
@@ -42,10 +41,16 @@ def catalogue_summary(rows: list[dict[str, Any]]) -> str:
         layered = [robots for row in group for robots in row["robots_layered"].values()]
         best = [min(row["robots"].values()) for row in group]
         lines.append(
-            f"| {name} | {len(group)} | {len(cuts)} "
-            f"| {mean(row['robots_before'] for row in group):.2f} "
-            f"| {mean(cuts):.2f} | {mean(best):.2f} | {mean(layered):.2f} "
-            f"| {median(row['ms_per_cut'] for row in group):.2f} |"
+            [
+                ("crossings", name),
+                ("knots", f"{len(group)}"),
+                ("cuts", f"{len(cuts)}"),
+                ("baseline", f"{mean(row['robots_before'] for row in group):.2f}"),
+                ("LCF", f"{mean(cuts):.2f}"),
+                ("LCF, best cut", f"{mean(best):.2f}"),
+                ("layered", f"{mean(layered):.2f}"),
+                ("ms a cut", f"{median(row['ms_per_cut'] for row in group):.2f}"),
+            ]
         )
     speed = median(row["times_faster_than_definition"] for row in rows)
     size = min(SPEED_AT, max(row["grid_size"] for row in rows))
@@ -54,7 +59,7 @@ def catalogue_summary(rows: list[dict[str, Any]]) -> str:
         f"At N = {size} a cut takes {milliseconds:.2f} ms (median over the knots of that size). "
         f"Median speed-up over the definition spelled out in plain Python: {speed:.0f} times."
     )
-    return "\n".join([*lines, "", note])
+    return markdown_block(table_of(lines, note))
 
 
 def growth_exponent(rows: list[dict[str, Any]], family: str) -> float:
@@ -67,23 +72,27 @@ def growth_exponent(rows: list[dict[str, Any]], family: str) -> float:
 
 def growth_summary(rows: list[dict[str, Any]]) -> str:
     """Table: time, memory and growth exponent by family at the largest size."""
-    lines = [
-        "| family | N | runs | crossings | robots | seconds | MiB | time grows as |",
-        "|---|---|---|---|---|---|---|---|",
-    ]
+    lines = []
     for family in FAMILIES:
         size = max(_by_size(rows, family, "seconds"))
         last = [row for row in rows if row["family"] == family and row["size"] == size]
         lines.append(
-            f"| {family} | {size} | {len(last)} | {median(r['crossings'] for r in last):.0f} "
-            f"| {median(r['robots'] for r in last):.0f} | {max(r['seconds'] for r in last):.2f} "
-            f"| {max(r['mebibytes'] for r in last):.0f} | N^{growth_exponent(rows, family):.1f} |"
+            [
+                ("family", family),
+                ("N", f"{size}"),
+                ("runs", f"{len(last)}"),
+                ("crossings", f"{median(r['crossings'] for r in last):.0f}"),
+                ("robots", f"{median(r['robots'] for r in last):.0f}"),
+                ("seconds", f"{max(r['seconds'] for r in last):.2f}"),
+                ("MiB", f"{max(r['mebibytes'] for r in last):.0f}"),
+                ("time grows as", f"N^{growth_exponent(rows, family):.1f}"),
+            ]
         )
     note = (
         "Seconds and MiB are the worst of the runs; each run counts the fastest of three. MiB is "
         f"what LCF allocates, without the interpreter. Exponents are fitted to N >= {FIT_FROM}."
     )
-    return "\n".join([*lines, "", note])
+    return markdown_block(table_of(lines, note))
 
 
 def growth_figure(rows: list[dict[str, Any]]) -> Figure:

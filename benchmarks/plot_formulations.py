@@ -11,6 +11,8 @@ from matplotlib.figure import Figure
 
 from benchmarks.plot import FAMILIES, load
 from knotopt.atlas.report.performance import SHIFT, SOLVERS, draw_profile, shifted_geometric_mean
+from knotopt.document.markdown import markdown_block
+from knotopt.document.model import table_of
 from knotopt.plot.figures import PANEL
 
 Rows = list[dict[str, Any]]
@@ -18,11 +20,6 @@ Rows = list[dict[str, Any]]
 
 def counts_table(rows: Rows) -> str:
     """Robots by crossing number, and how LCF compares with the smallest open sets."""
-    lines = [
-        "| crossings | cuts | baseline | LCF | open | layered | open "
-        "| opening | over-under | span |",
-        "|---|---|---|---|---|---|---|---|---|---|",
-    ]
     groups: dict[str, Rows] = defaultdict(list)
     for row in rows:
         groups[str(row["crossing_number"])] += row["cuts"].values()
@@ -34,25 +31,26 @@ def counts_table(rows: Rows) -> str:
         }
         for row in rows
     ]
-    for name, group in [*groups.items(), ("all", every)]:
-        lines.append(
-            f"| {name} | {len(group)} | {mean(c['baseline'] for c in group):.2f} "
-            f"| {mean(c['lcf'] for c in group):.2f} "
-            f"| {100 * mean(c['lcf_open'] for c in group):.0f} % "
-            f"| {mean(c['layered'] for c in group):.2f} "
-            f"| {100 * mean(c['layered_open'] for c in group):.0f} % "
-            f"| {mean(c['opening'] for c in group):.2f} "
-            f"| {mean(c['opening_over_under'] for c in group):.2f} "
-            f"| {mean(c['span'] for c in group):.2f} |"
-        )
-    lines.append(
-        f"| all, best cut of each method | {len(best)} | {mean(b['baseline'] for b in best):.2f} "
-        f"| {mean(b['lcf'] for b in best):.2f} | | {mean(b['layered'] for b in best):.2f} | "
-        f"| {mean(b['opening'] for b in best):.2f} "
-        f"| {mean(b['opening_over_under'] for b in best):.2f} "
-        f"| {mean(b['span'] for b in best):.2f} |"
-    )
-    return "\n".join([*lines, "", _lcf_note(every)])
+
+    def line(name: str, group: Rows) -> list[tuple[str, str]]:
+        def share(key: str) -> str:  # a best cut is not of one set
+            return f"{100 * mean(c[key] for c in group):.0f} %" if key in group[0] else ""
+
+        return [
+            ("crossings", name),
+            ("cuts", f"{len(group)}"),
+            ("baseline", f"{mean(c['baseline'] for c in group):.2f}"),
+            ("LCF", f"{mean(c['lcf'] for c in group):.2f}"),
+            ("open", share("lcf_open")),
+            ("layered", f"{mean(c['layered'] for c in group):.2f}"),
+            ("open", share("layered_open")),
+            ("opening", f"{mean(c['opening'] for c in group):.2f}"),
+            ("over-under", f"{mean(c['opening_over_under'] for c in group):.2f}"),
+            ("span", f"{mean(c['span'] for c in group):.2f}"),
+        ]
+
+    named = [*groups.items(), ("all", every), ("all, best cut of each method", best)]
+    return markdown_block(table_of([line(*each) for each in named], _lcf_note(every)))
 
 
 def _lcf_note(cuts: Rows) -> str:
@@ -98,24 +96,27 @@ def solver_table(rows: Rows) -> str:
             for run in optimal:
                 if run["objective"] != votes.most_common(1)[0][0]:
                     wrong[row["formulation"], run["solver"]] += 1
-    lines = [
-        "| formulation | solver | instances | wrong | solved | proven | mean ms | median | worst |",
-        "|---|---|---|---|---|---|---|---|---|",
-    ]
+    lines = []
     for key, group in sorted(runs.items()):
         times = [run["seconds"] for run in group]
         lines.append(
-            f"| {key[0]} | {SOLVERS[key[1]][0]} | {len(group)} | {wrong[key]} "
-            f"| {sum(run['objective'] is not None for run in group)} "
-            f"| {sum(run['status'] == 'optimal' for run in group)} "
-            f"| {1e3 * shifted_geometric_mean(times):.1f} | {1e3 * median(times):.1f} "
-            f"| {1e3 * max(times):.0f} |"
+            [
+                ("formulation", key[0]),
+                ("solver", SOLVERS[key[1]][0]),
+                ("instances", f"{len(group)}"),
+                ("wrong", f"{wrong[key]}"),
+                ("solved", f"{sum(run['objective'] is not None for run in group)}"),
+                ("proven", f"{sum(run['status'] == 'optimal' for run in group)}"),
+                ("mean ms", f"{1e3 * shifted_geometric_mean(times):.1f}"),
+                ("median", f"{1e3 * median(times):.1f}"),
+                ("worst", f"{1e3 * max(times):.0f}"),
+            ]
         )
     note = (
         f"Mean: geometric, shifted by {1e3 * SHIFT:.0f} ms. Times are build and solve, one run "
         "each, one thread, limit 60 s. Wrong: called optimal, but not what most solvers found."
     )
-    return "\n".join([*lines, "", note])
+    return markdown_block(table_of(lines, note))
 
 
 def profile_figure(rows: Rows) -> Figure:
@@ -163,24 +164,27 @@ def robots_figure(rows: Rows) -> Figure:
 
 def growth_table(rows: Rows) -> str:
     """Compile and solve times at each size, and what LCF has there."""
-    lines = [
-        "| formulation | family | N | runs | LCF | smallest | proven | compile s | solve s |",
-        "|---|---|---|---|---|---|---|---|---|",
-    ]
+    lines = []
     groups: dict[tuple[str, str, int], Rows] = defaultdict(list)
     for row in rows:
         groups[row["formulation"], row["family"], row["size"]].append(row)
     for (formulation, family, size), group in groups.items():
         solved = [row for row in group if row["robots"] is not None]
         lines.append(
-            f"| {formulation} | {family} | {size} | {len(group)} "
-            f"| {mean(row['lcf'] for row in group):.1f} "
-            f"| {mean(row['robots'] for row in solved):.1f} "
-            f"| {sum(row['status'] == 'optimal' for row in group)} "
-            f"| {max(row['compile_seconds'] for row in group):.2f} "
-            f"| {max(row['solve_seconds'] for row in group):.3f} |"
+            [
+                ("formulation", formulation),
+                ("family", family),
+                ("N", f"{size}"),
+                ("runs", f"{len(group)}"),
+                ("LCF", f"{mean(row['lcf'] for row in group):.1f}"),
+                ("smallest", f"{mean(row['robots'] for row in solved):.1f}"),
+                ("proven", f"{sum(row['status'] == 'optimal' for row in group)}"),
+                ("compile s", f"{max(row['compile_seconds'] for row in group):.2f}"),
+                ("solve s", f"{max(row['solve_seconds'] for row in group):.3f}"),
+            ]
         )
-    return "\n".join([*lines, "", "Robots are means, seconds the worst of the runs; limit 60 s."])
+    note = "Robots are means, seconds the worst of the runs; limit 60 s."
+    return markdown_block(table_of(lines, note))
 
 
 def growth_figure(rows: Rows) -> Figure:

@@ -23,6 +23,8 @@ ALLOWED: Mapping[str, str] = {
     "arrays": "",
     "files": "errors",
     "ranges": "errors",
+    # Documents of whatever there is to say.
+    "document": "errors arrays",
     # Knots, cables, ropes.
     "diagram": "errors arrays",
     "cable": "errors arrays diagram",
@@ -38,18 +40,18 @@ ALLOWED: Mapping[str, str] = {
     "rehearsal": "formulations errors arrays diagram cable supports path flight sim",
     # What is made of the results.
     "export": "errors arrays flight",
-    "viewer": "errors arrays supports flight",
+    "viewer": "errors arrays document supports flight",
     "plot": "errors arrays files cable topology supports path flight viewer",
     "mission": "errors verify supports path flight sim rehearsal export viewer plot",
-    "tables": "formulations diagram cable catalogue verify supports path",
-    "atlas": "formulations knotopt errors arrays files diagram cable catalogue verify supports "
-    "path flight sim rehearsal viewer plot",
+    "tables": "formulations files document diagram cable catalogue supports path plot",
+    "atlas": "formulations knotopt errors arrays files document diagram cable catalogue verify "
+    "supports path flight sim rehearsal plot tables",
     "api": "formulations errors diagram cable catalogue supports path flight mission",
-    "cli": "formulations knotopt errors files diagram cable catalogue topology verify supports "
-    "path flight sim rehearsal export plot mission tables atlas api",
+    "cli": "formulations knotopt errors files document diagram cable catalogue topology verify "
+    "supports path flight sim rehearsal export plot mission tables atlas api",
     "__main__": "cli",
-    "benchmarks": "formulations errors arrays files diagram cable catalogue topology verify "
-    "supports path flight sim rehearsal plot mission tables atlas",
+    "benchmarks": "formulations errors arrays files document diagram cable catalogue topology "
+    "verify supports path flight sim rehearsal plot mission tables atlas",
 }
 """What each package, or module right in `knotopt`, may import of the others; lower ones first."""
 
@@ -66,8 +68,6 @@ JUDGED = {
     "flight.examine": "flight flight_limits flight_places flight_states flight_word span",
     "sim.judge": "crossings",
     "mission.result": "flight_limits flight_states",
-    "tables.comparison": "opening",
-    "atlas.measure": "opening span",
     "atlas.report.gallery": "opening regions",
     "cli.prove": "certificate",
 }

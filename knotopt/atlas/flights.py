@@ -5,36 +5,25 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Mapping
-from typing import Any
 
-from knotopt.atlas.optional_rows import FlightRow, FlightTimesRow
+from knotopt.atlas.columns import FLOWN
 from knotopt.atlas.programs import Solved
 from knotopt.atlas.schema import KnotRow
 from knotopt.cable.cable import Cable
+from knotopt.document.columns import Row, names
 from knotopt.errors import RequirementError
 from knotopt.flight.planner import plan_flight
 from knotopt.sim.trials import Flight, fly_trial
 from knotopt.supports.lcf import LcfResult
 from knotopt.supports.selection import GivenSupports
+from knotopt.tables.methods import LCF, USUAL_PROGRAMS, SmallestSet, Supports
 
 logger = logging.getLogger(__name__)
 
-Supports = tuple[int, ...]
-MEASURED = [
-    "outcome",
-    "verdict",
-    "flight_seconds",
-    "separation",
-    "strand_distance",
-    "tension",
-    "cable_length",
-]
-"""Columns that are empty where there is no flight."""
-
 
 def fly_sets(
-    knot: KnotRow, plain: LcfResult, programs: Mapping[str, Solved]
-) -> tuple[list[FlightRow], list[FlightTimesRow]]:
+    knot: KnotRow, plain: LcfResult, programs: Mapping[SmallestSet, Solved]
+) -> tuple[list[Row], list[Row]]:
     """Fly LCF's set and the smallest set of each program; sets that are equal fly once.
 
     Parameters
@@ -42,37 +31,37 @@ def fly_sets(
     knot : KnotRow
     plain : LcfResult
         On one cut.
-    programs : mapping of str to Solved
-        `opening` in mode turning-point, and `span` if it was asked for.
+    programs : mapping of SmallestSet to Solved
 
     Raises
     ------
     MissingExtraError
         MuJoCo is not installed (extra `sim`).
     """
-    sets: dict[str, Supports] = {"lcf": plain.supports}
-    for formulation, program in programs.items():
+    sets: dict[str, Supports] = {LCF.key: plain.supports}
+    for method, program in programs.items():
         if program.supports is not None:
-            sets[formulation] = program.supports
+            sets[method.key] = program.supports
     flown: dict[Supports, Flight | str] = {}
     rows, times = [], []
-    span = programs.get("span")
     for name, supports in sets.items():
         seconds = 0.0, 0.0
         if supports not in flown:
             flown[supports], seconds = fly_set(knot.knot, plain.cable, supports)
-        place = (knot.number, knot.knot, str(plain.cable.cut), name)
+        keys = {
+            "number": knot.number,
+            "knot": knot.knot,
+            "cut": str(plain.cable.cut),
+            "supports": name,
+        }
         chosen = GivenSupports(plain.cable, supports)
-        rows.append(
-            FlightRow(
-                *place,
-                robots=chosen.robots,
-                opening_open=programs["opening"].allows(chosen),
-                span_open=span.allows(chosen) if span else None,
-                **_cells(flown[supports]),
-            )
-        )
-        times.append(FlightTimesRow(*place, *seconds))
+        cells = {**keys, "robots": chosen.robots, **_cells(flown[supports])}
+        for method in USUAL_PROGRAMS:
+            solved = programs.get(method)
+            cells |= method.cells(open=solved.allows(chosen) if solved else None)
+        rows.append(cells)
+        spent = {"planning_seconds": seconds[0], "simulation_seconds": seconds[1]}
+        times.append({**keys, **spent})
     return rows, times
 
 
@@ -112,10 +101,11 @@ def fly_set(
     return flight, (planned - began, time.perf_counter() - planned)
 
 
-def _cells(flown: Flight | str) -> dict[str, Any]:
+def _cells(flown: Flight | str) -> Row:
     """Columns of a row that say what came of a set."""
     if isinstance(flown, str):
-        return {"planned": False, "tied": False, "why": flown, **dict.fromkeys(MEASURED)}
+        empty: Row = dict.fromkeys(names(FLOWN))
+        return empty | {"planned": False, "tied": False, "why": flown}
     plan, record, examination = flown.plan, flown.record, flown.examination
     return {
         "planned": True,

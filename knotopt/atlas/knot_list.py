@@ -11,6 +11,7 @@ from knotopt.catalogue.knots import PrimeKnot, shipped_knots
 from knotopt.catalogue.lookup import NamedDiagram, find_knot
 from knotopt.errors import FileFormatError
 
+INVARIANTS = ("crossing_number", "arc_index", "alternating", "determinant", "signature")
 SUFFIXES = (".json", ".csv")
 
 
@@ -34,11 +35,7 @@ def knot_rows(knots: Iterable[NamedDiagram]) -> tuple[KnotRow, ...]:
                 grid_size=named.diagram.size,
                 minus=named.diagram.minus,
                 plus=named.diagram.plus,
-                crossing_number=prime.crossing_number if prime else None,
-                arc_index=prime.arc_index if prime else None,
-                alternating=prime.alternating if prime else None,
-                determinant=prime.determinant if prime else None,
-                signature=prime.signature if prime else None,
+                **{name: getattr(prime, name, None) for name in INVARIANTS},
             )
         )
     return tuple(rows)

@@ -11,37 +11,43 @@ import importlib.metadata
 import resource
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, field, replace
-from typing import Any
+from dataclasses import asdict, dataclass, field
 
 from knotopt import __version__
-from knotopt.atlas.optional_rows import PathRow
-from knotopt.atlas.programs import SOLVER, Solved, solve, try_span
+from knotopt.atlas.columns import FILES
+from knotopt.atlas.programs import SOLVER, Solved, is_asked, solve
 from knotopt.atlas.schema import (
+    ATLAS,
     FLIGHT_TIMES,
     FLIGHTS,
     PATHS,
     SOLVER_TIMES,
     SOLVERS,
-    AtlasRow,
+    TIMES,
     KnotRow,
     Settings,
-    TimesRow,
 )
 from knotopt.atlas.solvers import PACKAGES, compare_solvers
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import outer_cuts
+from knotopt.document.columns import Column, Row, names
 from knotopt.path.measures import both_methods, measure
 from knotopt.sim.simulators import MUJOCO
 from knotopt.supports.lcf import LcfResult, lcf
 from knotopt.supports.minimal import find_backend
 from knotopt.supports.selection import GivenSupports
 from knotopt.supports.support_set import SupportSet
-from knotopt.supports.threading import Threading
-from knotopt.verify.opening import check_opening
-from knotopt.verify.span import check_span
+from knotopt.tables.methods import (
+    HEURISTICS,
+    JUDGES,
+    LAYERED,
+    LCF,
+    OPENING,
+    PROGRAMS,
+    USUAL_PROGRAMS,
+)
 
 _PACKAGES = ("numpy", "ortools")
 _PATH_PACKAGES = ("scipy", "shapely", "casadi", "pythoncdt")
@@ -58,9 +64,9 @@ class KnotResult:
 
     number: int
     versions: dict[str, str]
-    rows: tuple[AtlasRow, ...]
-    times: tuple[TimesRow, ...]
-    requested: dict[str, tuple[Any, ...]] = field(default_factory=dict)
+    rows: tuple[Row, ...]
+    times: tuple[Row, ...]
+    requested: dict[str, tuple[Row, ...]] = field(default_factory=dict)
     seconds: float = 0.0
 
 
@@ -124,14 +130,15 @@ def measure_knot(knot: KnotRow, settings: Settings) -> KnotResult:
     >>> from knotopt.atlas.knot_list import knot_rows
     >>> from knotopt.catalogue.lookup import find_knot
     >>> result = measure_knot(knot_rows([find_knot("9_2")])[0], Settings())
-    >>> [(row.cut, row.lcf_robots, row.lcf_open, row.opening_robots) for row in result.rows[:2]]
-    [('L+', 19, True, 5), ('L-', 7, False, 6)]
+    >>> shown = ("cut", "lcf_robots", "lcf_open", "opening_robots")
+    >>> [[row[name] for name in shown] for row in result.rows[:2]]
+    [['L+', 19, True, 5], ['L-', 7, False, 6]]
     """
     find_backend(SOLVER)  # its import is no knot's time
     began = time.perf_counter()
     diagram, checked = knot.diagram, is_checked(knot, settings)
     rows, times = [], []
-    requested: dict[str, tuple[Any, ...]] = dict.fromkeys(settings.requested, ())
+    requested: dict[str, tuple[Row, ...]] = dict.fromkeys(settings.requested, ())
     for cut in outer_cuts(diagram):
         row, spent, more = _measure_cut(knot, Cable(diagram, cut), settings, checked=checked)
         rows.append(row)
@@ -148,7 +155,7 @@ def measure_knot(knot: KnotRow, settings: Settings) -> KnotResult:
     )
 
 
-def agrees_with_definition(cable: Cable, row: AtlasRow, settings: Settings) -> bool:
+def agrees_with_definition(cable: Cable, row: Row, settings: Settings) -> bool:
     """Whether a row says of its sets what the independent checkers find, from the definitions.
 
     That no smaller set is open they do not look at.
@@ -157,126 +164,97 @@ def agrees_with_definition(cable: Cable, row: AtlasRow, settings: Settings) -> b
     ----------
     cable : Cable
         The row's.
-    row : AtlasRow
+    row : Row
+        Of the atlas.
     settings : Settings
     """
-    size = cable.diagram.size
-
-    def is_open(supports: tuple[int, ...] | None, mode: Threading) -> bool:
-        return check_opening(cable.path, size, supports or (), settings.r, mode).is_open
-
-    turning, over_under = Threading.TURNING_POINT, Threading.OVER_UNDER
-    found = [
-        is_open(row.opening_supports, turning),
-        is_open(row.over_under_supports, over_under),
-        is_open(row.lcf_supports, turning) == row.lcf_open,
-        is_open(row.lcf_supports, over_under) == row.lcf_open_over_under,
-        is_open(row.layered_supports, turning) == row.layered_open,
-        is_open(row.layered_supports, over_under) == row.layered_open_over_under,
-    ]
-    if row.span_supports is not None:
-        found.append(
-            check_span(cable.path, size, row.span_supports, settings.r, over_under).is_open
-        )
-    return all(found)
+    smallest = all(
+        method.is_met(cable, row[f"{method.key}_supports"] or (), settings.r)
+        for method in PROGRAMS
+        if row[f"{method.key}_supports"] is not None or not method.setting
+    )
+    return smallest and all(
+        judge.is_met(cable, row[f"{method.key}_supports"], settings.r)
+        == row[f"{method.key}_open{name}"]
+        for method in HEURISTICS
+        for judge, name in JUDGES.items()
+    )
 
 
 def _measure_cut(
     knot: KnotRow, cable: Cable, settings: Settings, *, checked: bool
-) -> tuple[AtlasRow, TimesRow, dict[str, Sequence[Any]]]:
+) -> tuple[Row, Row, dict[str, list[Row]]]:
+    """The row of the atlas, that of the times, and rows of the files that were asked for."""
     clock = _Clock()
     with clock("lcf"):
         plain = lcf(cable)
         layered = lcf(cable, layered=True)
-    opening = solve(plain, settings, "opening")
-    over_under = solve(plain, settings, "opening", Threading.OVER_UNDER)
-    span = try_span(plain, settings)
-    more: dict[str, Sequence[Any]] = {}
+    solved = {method: solve(plain, settings, method) for method in PROGRAMS}
+    usual = {
+        method: program for method in USUAL_PROGRAMS if (program := solved[method]) is not None
+    }
+    keys: Row = {"number": knot.number, "knot": knot.knot, "cut": str(cable.cut)}
+    more: dict[str, list[Row]] = {}
     if settings.paths:
         with clock("paths"):
-            more[PATHS] = _paths(knot, plain, opening)
-    programs = {"opening": opening, **({"span": span} if span else {})}
+            more[PATHS] = _paths(keys, plain, usual[OPENING])
     if settings.solvers:
         more[SOLVERS], more[SOLVER_TIMES] = compare_solvers(
-            knot, plain.cable, programs, settings, checked=checked
+            knot, plain.cable, usual, settings, checked=checked
         )
     if settings.physics:
         from knotopt.atlas.flights import fly_sets
 
-        more[FLIGHTS], more[FLIGHT_TIMES] = fly_sets(knot, plain, programs)
-    row = AtlasRow(
-        number=knot.number,
-        knot=knot.knot,
-        crossing_number=knot.crossing_number,
-        grid_size=knot.grid_size,
-        crossings=len(cable.crossings),
-        cut=str(cable.cut),
-        baseline=plain.baseline,
-        lcf_robots=plain.robots,
-        lcf_supports=plain.supports,
-        lcf_open=opening.allows(plain),
-        lcf_open_over_under=over_under.allows(plain),
-        lcf_below=plain.robots < (opening.solution.bound or 0),
-        lcf_below_over_under=plain.robots < (over_under.solution.bound or 0),
-        layered_robots=layered.robots,
-        layered_supports=layered.supports,
-        layered_open=opening.allows(layered),
-        layered_open_over_under=over_under.allows(layered),
-        **_columns("opening", opening),
-        **_columns("over_under", over_under),
-        **_columns("span", span, status="refused" if settings.span else None),
-        checked=None,
-    )
+        more[FLIGHTS], more[FLIGHT_TIMES] = fly_sets(knot, plain, usual)
+    row: Row = {
+        **keys,
+        "crossing_number": knot.crossing_number,
+        "grid_size": knot.grid_size,
+        "crossings": len(cable.crossings),
+        "baseline": plain.baseline,
+        **LCF.cells(robots=plain.robots, supports=plain.supports),
+        **LAYERED.cells(robots=layered.robots, supports=layered.supports),
+        "checked": None,
+    }
+    for judge, name in JUDGES.items():
+        if (program := solved[judge]) is not None:
+            below = plain.robots < (program.solution.bound or 0)
+            row |= LCF.cells(**{f"open{name}": program.allows(plain), f"below{name}": below})
+            row |= LAYERED.cells(**{f"open{name}": program.allows(layered)})
+    times: Row = {**keys, "lcf_seconds": clock.seconds["lcf"]}
+    for method, program in solved.items():
+        if program is not None:
+            row |= method.cells(**program.cells)
+            times |= method.cells(
+                seconds=program.seconds, solve_seconds=program.solution.solve_seconds
+            )
+        elif is_asked(method, settings):
+            row |= method.cells(status="refused")
+    row, times = (_whole(each, FILES[name]) for each, name in ((row, ATLAS), (times, TIMES)))
     if checked:
         with clock("check"):
-            row = replace(row, checked=agrees_with_definition(cable, row, settings))
-    spent = TimesRow(
-        number=knot.number,
-        knot=knot.knot,
-        cut=row.cut,
-        lcf_seconds=clock.seconds["lcf"],
-        opening_seconds=opening.seconds,
-        opening_solve_seconds=opening.solution.solve_seconds,
-        over_under_seconds=over_under.seconds,
-        over_under_solve_seconds=over_under.solution.solve_seconds,
-        span_seconds=span.seconds if span else None,
-        span_solve_seconds=span.solution.solve_seconds if span else None,
-        paths_seconds=clock.seconds.get("paths"),
-        check_seconds=clock.seconds.get("check"),
-        worker_mib=_peak_mib(),
-    )
-    return row, spent, more
+            row["checked"] = agrees_with_definition(cable, row, settings)
+    times |= {f"{name}_seconds": clock.seconds.get(name) for name in ("paths", "check")}
+    times["worker_mib"] = _peak_mib()
+    return row, times, more
 
 
-def _columns(prefix: str, solved: Solved | None, status: str | None = None) -> dict[str, Any]:
-    """The columns of one program; without it empty ones, but for the status."""
-    cells: dict[str, Any] = dict.fromkeys(
-        ("robots", "bound", "status", "supports", "rows", "instance")
-    )
-    cells["status"] = status
-    if solved is not None:
-        solution = solved.solution
-        cells = {
-            "robots": solution.objective,
-            "bound": solution.bound,
-            "status": str(solution.status),
-            "supports": solved.supports,
-            "rows": len(solved.instance.rows),
-            "instance": solved.instance.hash[:16],
-        }
-    return {f"{prefix}_{name}": value for name, value in cells.items()}
+def _whole(row: Row, columns: tuple[Column, ...]) -> Row:
+    """The row in the columns' order, with empty cells where it has none."""
+    return {name: row.get(name) for name in names(columns)}
 
 
-def _paths(knot: KnotRow, plain: LcfResult, opening: Solved) -> list[PathRow]:
-    sets: list[tuple[str, SupportSet]] = [("lcf", plain)]
+def _paths(keys: Row, plain: LcfResult, opening: Solved) -> list[Row]:
+    sets: dict[str, SupportSet] = {LCF.key: plain}
     if opening.supports is not None:
-        sets.append(("opening", GivenSupports(plain.cable, opening.supports)))
-    rows = []
-    for name, chosen in sets:
-        for path in both_methods(chosen):
-            cells = asdict(measure(path, name))
-            del cells["milliseconds"]  # differs from run to run
-            rows.append(PathRow(number=knot.number, knot=knot.knot, **cells))
+        sets[OPENING.key] = GivenSupports(plain.cable, opening.supports)
+    rows = [
+        {**keys, **asdict(measure(path, name))}
+        for name, chosen in sets.items()
+        for path in both_methods(chosen)
+    ]
+    for row in rows:
+        del row["milliseconds"]  # differs from run to run
     return rows
 
 

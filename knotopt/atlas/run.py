@@ -87,7 +87,7 @@ def run_atlas(
                 state = Progress(len(knots), before, state.measured + 1)
                 logger.info(
                     "knot %s measured in %.2f s: %d of %d",
-                    result.rows[0].knot,
+                    result.rows[0]["knot"],
                     result.seconds,
                     before + state.measured,
                     len(knots),

@@ -1,4 +1,4 @@
-"""What an atlas holds: its files, and every column with meaning and unit.
+"""What an atlas was asked, and its files; `knotopt.atlas.columns` has their columns.
 
 A run's folder has `manifest.json` (what was asked, with which versions), `knots.parquet` (the list
 of knots, with grids), `parts/` while it is under way, and in the end `atlas.parquet` (one row a
@@ -14,7 +14,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from dataclasses import Field, asdict, dataclass, field
+from dataclasses import asdict, dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -35,17 +35,6 @@ MANIFEST, KNOTS, ATLAS, TIMES, PATHS, PARTS = (
 )
 SOLVERS, SOLVER_TIMES = "solvers.parquet", "solver_times.parquet"
 FLIGHTS, FLIGHT_TIMES = "flights.parquet", "flight_times.parquet"
-
-
-def about(meaning: str) -> Any:
-    """A column of a row, and what it holds in words."""
-    return field(metadata={"meaning": meaning})
-
-
-def meaning(column: Field[Any]) -> str:
-    """What a column holds, in words, with its unit in brackets."""
-    words: str = column.metadata["meaning"]
-    return words
 
 
 @dataclass(frozen=True)
@@ -127,19 +116,19 @@ class Settings:
 
 @dataclass(frozen=True)
 class KnotRow:
-    """One knot of the list: a row of `knots.parquet`, and one item of work."""
+    """One knot of the list: a row of `knots.parquet`, whose columns say what the fields are."""
 
-    number: int = about("place in the list, from 1")
-    knot: str = about("name; of a grid from a file, the file's name")
-    source: str = about("where the diagram comes from, in words")
-    grid_size: int = about("N; of a smallest diagram the arc index")
-    minus: tuple[int, ...] = about("row of the -1 in columns 1 ... N")
-    plus: tuple[int, ...] = about("row of the +1 in columns 1 ... N")
-    crossing_number: int | None = about("of the knot, where a table says it")
-    arc_index: int | None = about("of the knot, where a table says it")
-    alternating: bool | None = about("whether the knot is, where a table says it")
-    determinant: int | None = about("of the knot, where a table says it")
-    signature: int | None = about("of the knot in KnotInfo's sign, where a table says it")
+    number: int
+    knot: str
+    source: str
+    grid_size: int
+    minus: tuple[int, ...]
+    plus: tuple[int, ...]
+    crossing_number: int | None
+    arc_index: int | None
+    alternating: bool | None
+    determinant: int | None
+    signature: int | None
 
     @property
     def diagram(self) -> GridDiagram:
@@ -147,75 +136,6 @@ class KnotRow:
         from knotopt.diagram.grid import GridDiagram
 
         return GridDiagram(self.minus, self.plus)
-
-
-@dataclass(frozen=True)
-class AtlasRow:
-    """One knot and cut: a row of `atlas.parquet`. Robots count the two lifting ones.
-
-    `opening_` columns are of formulation `opening` with threading by turning points, `over_under_`
-    of the same with strands that change between over and under, `span_` of formulation `span`
-    (empty unless asked for). "Open" is by `opening` in the mode named.
-    """
-
-    number: int = about("the knot's place in the list, from 1")
-    knot: str = about("name")
-    crossing_number: int | None = about("of the knot, where a table says it")
-    grid_size: int = about("N")
-    crossings: int = about("of the diagram")
-    cut: str = about("outer cut, L+ ... T-")
-    baseline: int = about("robots at all 2N turning points")
-    lcf_robots: int = about("robots of the Loop Consistency Filter's set")
-    lcf_supports: tuple[int, ...] = about("LCF's set: turning points, from 1, without the ends")
-    lcf_open: bool = about("whether LCF's set is open, turning-point")
-    lcf_open_over_under: bool = about("whether LCF's set is open, over-under")
-    lcf_below: bool = about("whether LCF uses fewer robots than any open set, turning-point")
-    lcf_below_over_under: bool = about("whether LCF uses fewer robots than any open set, o.-u.")
-    layered_robots: int = about("robots of LCF's layered set")
-    layered_supports: tuple[int, ...] = about("LCF's layered set")
-    layered_open: bool = about("whether the layered set is open, turning-point")
-    layered_open_over_under: bool = about("whether the layered set is open, over-under")
-    opening_robots: int | None = about("robots of the smallest open set, turning-point")
-    opening_bound: int | None = about("no open set has fewer robots, turning-point")
-    opening_status: str = about("optimal, feasible, infeasible, unknown or error")
-    opening_supports: tuple[int, ...] | None = about("a smallest open set, turning-point")
-    opening_rows: int = about("rows of the 0-1 program, turning-point")
-    opening_instance: str = about("first 16 digits of the SHA-256 of that program")
-    over_under_robots: int | None = about("robots of the smallest open set, over-under")
-    over_under_bound: int | None = about("no open set has fewer robots, over-under")
-    over_under_status: str = about("optimal, feasible, infeasible, unknown or error")
-    over_under_supports: tuple[int, ...] | None = about("a smallest open set, over-under")
-    over_under_rows: int = about("rows of the 0-1 program, over-under")
-    over_under_instance: str = about("first 16 digits of the SHA-256 of that program")
-    span_robots: int | None = about("robots of the smallest set of `span`")
-    span_bound: int | None = about("no set that `span` allows has fewer robots")
-    span_status: str | None = about("as of `opening`, or refused: the diagram is too large")
-    span_supports: tuple[int, ...] | None = about("a smallest set of `span`")
-    span_rows: int | None = about("rows of the 0-1 program of `span`")
-    span_instance: str | None = about("first 16 digits of the SHA-256 of that program")
-    checked: bool | None = about(
-        "whether the independent checkers find the smallest sets open, and LCF's as said here; "
-        "empty where they were not asked"
-    )
-
-
-@dataclass(frozen=True)
-class TimesRow:
-    """What differs from run to run: a row of `times.parquet`, for the same row of the atlas."""
-
-    number: int = about("the knot's place in the list, from 1")
-    knot: str = about("name")
-    cut: str = about("outer cut, L+ ... T-")
-    lcf_seconds: float = about("LCF and its layered set [s]")
-    opening_seconds: float = about("compile, build and solve, turning-point, without LCF [s]")
-    opening_solve_seconds: float = about("the solver alone, turning-point [s]")
-    over_under_seconds: float = about("compile, build and solve, over-under [s]")
-    over_under_solve_seconds: float = about("the solver alone, over-under [s]")
-    span_seconds: float | None = about("compile, build and solve, `span` [s]")
-    span_solve_seconds: float | None = about("the solver alone, `span` [s]")
-    paths_seconds: float | None = about("four paths and their checks [s]")
-    check_seconds: float | None = about("the independent checkers [s]")
-    worker_mib: float = about("largest memory of the worker's process so far [MiB]")
 
 
 @dataclass(frozen=True)

@@ -6,14 +6,15 @@ import time
 from collections.abc import Mapping
 from functools import cache
 
-from formulations.instance import Instance, Row
+from formulations.instance import Instance
+from formulations.instance import Row as ProgramRow
 from formulations.solution import BackendError, Limits, Solution, Status
-from knotopt.atlas.optional_rows import SolverRow, SolverTimesRow
 from knotopt.atlas.programs import Solved
 from knotopt.atlas.schema import KnotRow, Settings
 from knotopt.cable.cable import Cable
+from knotopt.document.columns import Row
 from knotopt.supports.minimal import find_backend
-from knotopt.supports.registry import find_formulation
+from knotopt.tables.methods import SmallestSet
 
 REFUSED = "refused"
 PACKAGES = {
@@ -29,11 +30,11 @@ PACKAGES = {
 def compare_solvers(
     knot: KnotRow,
     cable: Cable,
-    programs: Mapping[str, Solved],
+    programs: Mapping[SmallestSet, Solved],
     settings: Settings,
     *,
     checked: bool,
-) -> tuple[list[SolverRow], list[SolverTimesRow]]:
+) -> tuple[list[Row], list[Row]]:
     """Solve each program by each solver of the settings.
 
     Parameters
@@ -41,8 +42,7 @@ def compare_solvers(
     knot : KnotRow
     cable : Cable
         On one cut.
-    programs : mapping of str to Solved
-        `opening` in mode turning-point, `span` in mode over-under.
+    programs : mapping of SmallestSet to Solved
     settings : Settings
     checked : bool
         Whether the independent checkers look at the sets too.
@@ -55,41 +55,47 @@ def compare_solvers(
         Ctrl-C, also where a solver caught it.
     """
     rows, times = [], []
-    for formulation, program in programs.items():
+    for method, program in programs.items():
         for solver in settings.solvers:
             warm(solver)
             began = time.perf_counter()
             status, solution = _ask(solver, program.instance, settings)
             seconds = time.perf_counter() - began
-            place = (knot.number, knot.knot, str(cable.cut), formulation, solver)
             chosen = solution.chosen
             satisfies = None if status != Status.ERROR else False
             meets = None
             if chosen is not None:
                 satisfies = not program.instance.violated(program.instance.complete(chosen))
                 if checked:
-                    meets = _is_open(cable, formulation, chosen[1:-1], settings)
+                    meets = method.is_met(cable, chosen[1:-1], settings.r)
+            keys = {
+                "number": knot.number,
+                "knot": knot.knot,
+                "cut": str(cable.cut),
+                "formulation": method.key,
+                "solver": solver,
+            }
             rows.append(
-                SolverRow(
-                    *place,
-                    status=status,
-                    said=solution.raw_status,
-                    objective=solution.objective,
-                    bound=solution.bound,
-                    proven=status in (Status.OPTIMAL, Status.INFEASIBLE),
-                    rows=len(program.instance.rows),
-                    satisfies=satisfies,
-                    meets_definition=meets,
-                )
+                {
+                    **keys,
+                    "status": status,
+                    "said": solution.raw_status,
+                    "objective": solution.objective,
+                    "bound": solution.bound,
+                    "proven": status in (Status.OPTIMAL, Status.INFEASIBLE),
+                    "rows": len(program.instance.rows),
+                    "satisfies": satisfies,
+                    "meets_definition": meets,
+                }
             )
-            times.append(SolverTimesRow(*place, seconds, solution.solve_seconds))
+            times.append({**keys, "seconds": seconds, "solve_seconds": solution.solve_seconds})
     return rows, times
 
 
 @cache
 def warm(solver: str) -> None:
     """Import a solver and solve something with it, once a process: that is no program's time."""
-    tiny = Instance("tiny", ("a", "b"), 2, (1, 1), (Row((1, 2), 1, "cover", "ab"),))
+    tiny = Instance("tiny", ("a", "b"), 2, (1, 1), (ProgramRow((1, 2), 1, "cover", "ab"),))
     find_backend(solver).solve(tiny, Limits())
 
 
@@ -103,10 +109,3 @@ def _ask(solver: str, instance: Instance, settings: Settings) -> tuple[str, Solu
     if solution.interrupted:
         raise KeyboardInterrupt
     return str(solution.status), solution
-
-
-def _is_open(cable: Cable, name: str, supports: tuple[int, ...], settings: Settings) -> bool:
-    formulation = find_formulation(name)
-    mode = formulation.threading[0]
-    size = cable.diagram.size
-    return formulation.check(cable.path, size, supports, settings.r, mode).is_open

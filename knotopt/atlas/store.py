@@ -10,31 +10,26 @@ from __future__ import annotations
 import fcntl
 import os
 import shutil
-import types
-import typing
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import asdict, fields
+from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from knotopt.atlas.columns import CUT_KEYS, FILES
 from knotopt.atlas.measure import KnotResult
-from knotopt.atlas.optional_rows import ON_REQUEST
 from knotopt.atlas.schema import (
     ATLAS,
     KNOTS,
     MANIFEST,
     PARTS,
     TIMES,
-    AtlasRow,
     KnotRow,
     Manifest,
-    TimesRow,
-    meaning,
 )
 from knotopt.cable.cut import OUTER_CUTS
+from knotopt.document.columns import Row, check_rows, names
 from knotopt.errors import OutputError, require_extra
 from knotopt.files import write_atomically, write_folder
 
@@ -42,11 +37,7 @@ require_extra("pyarrow", "atlas", "an atlas")
 import pyarrow as pa  # noqa: E402
 import pyarrow.parquet as pq  # noqa: E402
 
-if TYPE_CHECKING:
-    from _typeshed import DataclassInstance
-
 _METADATA = b"knotopt"
-_KEYS = ("number", "knot", "cut")  # of a row of times, which the atlas has too
 _KINDS = {
     int: pa.int32(),
     str: pa.string(),
@@ -91,14 +82,17 @@ class Run:
         OutputError
             It cannot be written; the parts before it stay.
         """
-        rows: list[dict[str, Any]] = []
+        rows: list[Row] = []
         for result in results:
+            listed = {ATLAS: result.rows, TIMES: result.times, **result.requested}
+            for name, found in listed.items():
+                check_rows(FILES[name], found)
             for row, times in zip(result.rows, result.times, strict=True):
                 lists = {
-                    _list_of(name): [asdict(each) for each in found if each.cut == row.cut]
+                    _list_of(name): [each for each in found if each["cut"] == row["cut"]]
                     for name, found in result.requested.items()
                 }
-                rows.append({**asdict(row), **asdict(times), **lists})
+                rows.append({**row, **times, **lists})
         if not rows:
             return
         last = int(self._parts[-1].stem.removeprefix("part-")) if self._parts else 0
@@ -121,17 +115,17 @@ class Run:
             for name in self.manifest.settings.requested:
                 found = table[_list_of(name)].combine_chunks().flatten()
                 rows = pa.Table.from_batches([pa.RecordBatch.from_struct_array(found)])
-                self._write(name, rows, ON_REQUEST[name])
-            self._write(TIMES, table, TimesRow)
-            self._write(ATLAS, table, AtlasRow)  # last: it says that the run is complete
+                self._write(name, rows)
+            self._write(TIMES, table)
+            self._write(ATLAS, table)  # last: it says that the run is complete
             self.is_complete = True
         shutil.rmtree(self.folder / PARTS, ignore_errors=True)
         for torn in self.folder.glob(".*.tmp"):
             torn.unlink()
         self._parts = []
 
-    def _write(self, name: str, table: pa.Table, rows: type[DataclassInstance]) -> None:
-        schema = arrow_schema(rows, self.manifest)
+    def _write(self, name: str, table: pa.Table) -> None:
+        schema = arrow_schema(name, self.manifest)
         write_atomically(self.folder / name, _to_bytes(table.select(schema.names).cast(schema)))
 
     def _read(self, part: Path) -> pa.Table:
@@ -159,7 +153,7 @@ def opened(folder: Path, manifest: Manifest, knots: Iterable[KnotRow]) -> Iterat
     """
     if not folder.exists() or (folder.is_dir() and not any(folder.iterdir())):
         listed = pa.Table.from_pylist(
-            [asdict(knot) for knot in knots], arrow_schema(KnotRow, manifest)
+            [asdict(knot) for knot in knots], arrow_schema(KNOTS, manifest)
         )
         write_folder(folder, {MANIFEST: manifest.text, KNOTS: _to_bytes(listed)})
     _compare(folder, read_manifest(folder), manifest)
@@ -213,27 +207,24 @@ def read_rows(folder: Path, name: str) -> pa.Table:
     return table
 
 
-def arrow_schema(rows: type[DataclassInstance], manifest: Manifest) -> pa.Schema:
-    """Columns of a row's class, their meanings as metadata, and the manifest."""
-    hints = typing.get_type_hints(rows)
-    columns = []
-    for column in fields(rows):
-        kind = hints[column.name]
-        nullable = isinstance(kind, types.UnionType)
-        if nullable:
-            kind = next(each for each in typing.get_args(kind) if each is not type(None))
-        metadata = {"meaning": meaning(column)}
-        columns.append(pa.field(column.name, _KINDS[kind], nullable, metadata))
-    return pa.schema(columns, {_METADATA: manifest.text.encode()})
+def arrow_schema(name: str, manifest: Manifest) -> pa.Schema:
+    """Columns of a file, their meanings as metadata, and the manifest."""
+    return pa.schema(
+        [
+            pa.field(column.name, _KINDS[column.kind], column.optional, {"meaning": column.meaning})
+            for column in FILES[name]
+        ],
+        {_METADATA: manifest.text.encode()},
+    )
 
 
 def _part_schema(manifest: Manifest) -> pa.Schema:
-    schema = arrow_schema(AtlasRow, manifest)
-    for column in arrow_schema(TimesRow, manifest):
-        if column.name not in _KEYS:
+    schema = arrow_schema(ATLAS, manifest)
+    for column in arrow_schema(TIMES, manifest):
+        if column.name not in names(CUT_KEYS):
             schema = schema.append(column)
     for name in manifest.settings.requested:
-        rows = pa.struct(list(arrow_schema(ON_REQUEST[name], manifest)))
+        rows = pa.struct(list(arrow_schema(name, manifest)))
         schema = schema.append(pa.field(_list_of(name), pa.list_(rows)))
     return schema
 

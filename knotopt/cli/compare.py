@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from knotopt.cli.documents import print_tables
 from knotopt.cli.options import (
     CatalogueOption,
     JsonOption,
@@ -21,12 +21,12 @@ from knotopt.cli.options import (
     run_header,
     solver_limits,
 )
-from knotopt.cli.printing import print_json, print_note, print_table, print_written
+from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import track
 
 if TYPE_CHECKING:
     from knotopt.catalogue.lookup import NamedDiagram
-    from knotopt.tables.comparison import ComparisonRow
+    from knotopt.document.columns import Row
 
 
 def compare(
@@ -48,17 +48,15 @@ def compare(
     Example: knotopt compare 3 4 5 8_19 'T(3,5)' --out comparison.tex
     """
     from knotopt.cable.cut import Cut
-    from knotopt.errors import OutputError
+    from knotopt.document.formats import writer_for
     from knotopt.files import resumable_lines
-    from knotopt.path import measures
     from knotopt.tables import comparison
 
     found = find_knots(knots, catalogue=catalogue)
-    if out is not None and out.suffix.lower() not in comparison.FORMATS:
-        raise OutputError(f"{out}: tables are written as {', '.join(comparison.FORMATS)}")
+    write = None if out is None else writer_for(out)
     limits = solver_limits(time_limit)
 
-    def compare_one(named: NamedDiagram) -> ComparisonRow:
+    def compare_one(named: NamedDiagram) -> Row:
         return comparison.compare(
             named.name,
             named.diagram,
@@ -69,25 +67,20 @@ def compare(
             limits=limits,
         )
 
-    if out is None:
+    if out is None or write is None:
         rows = [compare_one(named) for named in track(found, "knots", len(found))]
     else:
-        write = comparison.FORMATS[out.suffix.lower()]
         header = run_header("compare", [cut, r, solver, time_limit], found)
         with resumable_lines(
-            out, header, lambda lines: write([comparison.from_json(line) for line in lines])
+            out, header, lambda lines: write(comparison.tabulated(list(map(json.loads, lines))))
         ) as lines:
-            rows = [comparison.from_json(line) for line in lines.done]
+            rows = list(map(json.loads, lines.done))
             for named in track(found[len(rows) :], "knots", len(found) - len(rows)):
                 rows.append(compare_one(named))
-                lines.write(json.dumps(asdict(rows[-1])))
+                lines.write(json.dumps(rows[-1]))
     if as_json:
-        print_json([asdict(row) for row in rows])
+        print_json(rows)
         return
-    last = [comparison.averages(rows)] if len(rows) > 1 else []
-    print_table(comparison.HEADS, [*map(comparison.display, rows), *last])
-    print_note(comparison.NOTE)
-    print_table(measures.SUMMARY_HEADS, comparison.path_summary(rows))
-    print_note(f"Medians over {len(rows)} knots. {measures.NOTE}")
+    print_tables(comparison.tabulated(rows).document)
     if out is not None:
         print_written(out)

@@ -8,8 +8,9 @@ from typing import Annotated
 
 import typer
 
+from knotopt.cli.documents import print_tables
 from knotopt.cli.options import JsonOption
-from knotopt.cli.printing import print_json, print_note, print_table, print_written
+from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import track
 
 
@@ -31,75 +32,27 @@ def table1(
 
     Example: knotopt table1 --out paper_results
     """
-    from knotopt.path import measures
-    from knotopt.tables.table1 import (
-        HEADS,
-        NOTE,
-        PATH_HEADS,
-        chosen_grids,
-        compute_table1,
-        display,
-        display_paths,
-        paths_csv,
-        paths_markdown,
-        table1_csv,
-        table1_markdown,
-    )
+    from knotopt.tables.table1 import chosen_grids, compute_table1, tabulated, tabulated_paths
 
     if out is not None:
         if all_grids:
             raise typer.BadParameter(
                 "writes the six rows: leave out --all-grids", param_hint="--out"
             )
-        from knotopt.plot.figures import before_after_figure, minimal_figure, save_figure
-        from knotopt.plot.path_figures import braid_figure, path_figure, relaxation_figure
+        # Before the work, so that what is not installed is said at once.
+        from knotopt.tables.table1_files import write_table1
     total = len(chosen_grids(all_grids=all_grids))
     results = list(track(compute_table1(all_grids=all_grids), "grids", total))
-    rows = [result.row for result in results]
-    written = []
-    if out is not None:
-        from knotopt.files import write_atomically
-        from knotopt.path.relaxation import relax
-
-        for result in results:
-            row = result.row
-            name = f"table1_{row.row.replace(' ', '_')}_{row.knot}"
-            title = f"Table I, row {row.row}: {row.knot}"
-            figures = {
-                name: before_after_figure(result.lcf, f"{title}, cut {row.cut}"),
-                f"{name}_minimal": minimal_figure([result.opening, result.span], title),
-                f"{name}_fig5": relaxation_figure(
-                    relax(result.lcf.cable, result.lcf.supports),
-                    result.relaxed,
-                    result.optimised,
-                    f"{title}, LCF's supports, as in Fig. 5",
-                ),
-                f"{name}_fig7": braid_figure(result.optimised, f"{title}, as in Fig. 7"),
-                f"{name}_path": path_figure([result.optimised], f"{title}, LCF's supports"),
-            }
-            for stem, figure in figures.items():
-                save_figure(figure, out / "figures" / f"{stem}.png")
-                written.append(out / "figures" / f"{stem}.png")
-        tables = {
-            "table1.csv": table1_csv(rows),
-            "table1.md": table1_markdown(rows),
-            "table1_paths.csv": paths_csv(results),
-            "table1_paths.md": paths_markdown(results),
-        }
-        for file, text in tables.items():
-            write_atomically(out / file, text)
-            written.append(out / file)
+    written = write_table1(out, results) if out is not None else []
     if as_json:
         print_json(
             [
-                asdict(result.row) | {"paths": [asdict(path) for path in result.paths]}
+                result.cells | {"paths": [asdict(path) for path in result.paths]}
                 for result in results
             ]
         )
         return
-    print_table(HEADS, map(display, rows))
-    print_note(NOTE)
-    print_table(PATH_HEADS, display_paths(results))
-    print_note(measures.NOTE)
+    for table in (tabulated(results), tabulated_paths(results)):
+        print_tables(table.document)
     for path in written:
         print_written(path)

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from statistics import median
 
 from formulations.ipopt import PathStatus
 from knotopt.path.optimise import optimise_path
@@ -133,49 +131,3 @@ def display(row: PathMeasures) -> list[str]:
         same,
         f"{row.milliseconds:.0f}",
     ]
-
-
-SUMMARY_HEADS = (
-    "supports",
-    "method",
-    "done",
-    "same knot",
-    "/ taut",
-    "radius",
-    "clearance",
-    "opening",
-    "gap",
-    "ms",
-)
-
-
-def summary(paths: Iterable[PathMeasures]) -> list[list[str]]:
-    """Medians by supports and method, the cells of rows under `SUMMARY_HEADS`."""
-    groups: dict[tuple[str, str], list[PathMeasures]] = {}
-    for path in paths:
-        groups.setdefault((path.supports, path.method), []).append(path)
-    rows = []
-    for (supports, method), group in groups.items():
-
-        def middle(values: Sequence[float | None], digits: int = 3) -> str:
-            known = [value for value in values if value is not None]
-            return f"{median(known):.{digits}f}" if known else "-"
-
-        count = len(group)
-        solved = sum(path.status in ("solved", "converged") for path in group)
-        same = sum(path.same_diagram for path in group)
-        rows.append(
-            [
-                supports,
-                method,
-                f"{solved} of {count}",
-                f"{same} of {count}",
-                middle([path.stretch for path in group]),
-                middle([path.smallest_radius for path in group]),
-                middle([path.clearance for path in group]),
-                middle([path.opening for path in group]),
-                middle([path.gap for path in group]),
-                middle([path.milliseconds for path in group], 0),
-            ]
-        )
-    return rows

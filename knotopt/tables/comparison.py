@@ -1,69 +1,68 @@
-"""Every method on the same knots: baseline, LCF, LCF layered, `opening` and `span`, as tables."""
+"""Every method on the same knots: baseline, LCF, LCF layered and the smallest sets, as tables."""
 
 from __future__ import annotations
 
-import csv
-import io
-import json
 import time
-from collections.abc import Iterable
-from dataclasses import asdict, dataclass, fields
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict, fields, replace
 from fractions import Fraction
-from typing import Any
 
 from formulations.backends import DEFAULT
 from formulations.solution import Limits
 from knotopt.cable.cut import Cut, crossing_free_cuts
 from knotopt.diagram.grid import GridDiagram
+from knotopt.document.cells import mean, median, percent, yes
+from knotopt.document.columns import Column, Row, names
+from knotopt.document.formats import Tabulation
+from knotopt.document.model import table, table_of, tables
 from knotopt.path import measures
 from knotopt.path.measures import PathMeasures, both_methods, measure
-from knotopt.supports.lcf import LcfResult, lcf_by_cut
-from knotopt.supports.requirements import Requirements
 from knotopt.supports.search import CutSearch, best_supports
-from knotopt.verify.opening import check_opening
+from knotopt.supports.support_set import SupportSet
+from knotopt.tables.methods import (
+    HEURISTICS,
+    LAYERED,
+    LCF,
+    OPENING,
+    USUAL_PROGRAMS,
+    SmallestSet,
+    columns_of,
+)
 
-HEADS = ("knot", "before", "LCF", "open", "layered", "open", "opening", "span", "proven")
+COLUMNS = (
+    Column("knot", str, "name"),
+    Column("source", str, "where the diagram comes from, in words"),
+    Column("grid_size", int, "N"),
+    Column("crossings", int, "of the diagram"),
+    Column("cuts", int, "how many there are to choose from"),
+    Column("openness", float, "r [grid steps]"),
+    Column("robots_before", int, "robots at all 2N turning points"),
+    *LCF.columns("robots", "cut", "open", "seconds"),
+    *LAYERED.columns("robots", "cut", "open"),
+    *columns_of(USUAL_PROGRAMS, "robots", "cut", "proven", "seconds"),
+)
+"""Columns of a row. Robots count the lifting robots; times are of all cuts together, those of the
+smallest sets with the regions that they take from LCF."""
 PATH_KEYS = ("supports", "method", "cut", "robots")  # of a path, which the row says already
+PATH_HEADS = {
+    "stretch": "/ taut",
+    "smallest_radius": "radius",
+    "clearance": "clearance",
+    "opening": "opening",
+    "gap": "gap",
+}
+"""Measures of a path of which tables show medians, and their heads."""
+HEADS = (
+    *("knot", "before"),
+    *(head for method in HEURISTICS for head in (method.head, "open")),
+    *(method.head for method in USUAL_PROGRAMS),
+    "proven",
+)
 NOTE = """\
 Robots, the two lifting ones included. Each method has its own best of the cuts named (ties: the \
 first). LCF is "open" if its set keeps every active region open by the definition of `opening` \
 with the same r and threading by turning points, as for `opening`; for `span` strands thread that \
 change between over and under. Proven: neither has a smaller set on any of the cuts."""
-
-
-@dataclass(frozen=True)
-class ComparisonRow:
-    """One knot; the fields are the columns of the CSV and the keys of the JSON.
-
-    Robots count the lifting robots; `*_cut` is the cut with the fewest; times are for all cuts
-    together [s], those of `opening` and `span` with the regions that they take from LCF. `paths`
-    are the relaxation's and the program's on LCF's set, then on the smallest of `opening`; in the
-    CSV each has columns `lcf_relaxation_length` and so on.
-    """
-
-    knot: str
-    source: str
-    grid_size: int
-    crossings: int
-    cuts: int
-    openness: float
-    robots_before: int
-    lcf_robots: int
-    lcf_cut: str
-    lcf_open: bool
-    lcf_seconds: float
-    layered_robots: int
-    layered_cut: str
-    layered_open: bool
-    opening_robots: int | None
-    opening_cut: str
-    opening_proven: bool
-    opening_seconds: float
-    span_robots: int | None
-    span_cut: str
-    span_proven: bool
-    span_seconds: float
-    paths: tuple[PathMeasures, ...]
 
 
 def compare(
@@ -75,8 +74,8 @@ def compare(
     cuts: Iterable[Cut] | None = None,
     solver: str = DEFAULT,
     limits: Limits | None = None,
-) -> ComparisonRow:
-    """All methods on one diagram.
+) -> Row:
+    """All methods on one diagram: the cells of `COLUMNS`, and under "paths" the paths' measures.
 
     Parameters
     ----------
@@ -85,7 +84,7 @@ def compare(
     source : str
         Where the diagram comes from, in words.
     openness : optional
-        r of both formulations [grid steps]; by default 0.5.
+        r of every formulation [grid steps]; by default 0.5.
     cuts : iterable of Cut, optional
         By default every crossing-free one.
     solver, limits
@@ -95,202 +94,148 @@ def compare(
     --------
     >>> from knotopt.catalogue.lookup import find_knot
     >>> row = compare("5_1", find_knot("5").diagram)
-    >>> row.robots_before, row.lcf_robots, row.lcf_open, row.opening_robots, row.span_robots
-    (14, 5, False, 6, 9)
+    >>> [row[f"{method}_robots"] for method in ("lcf", "layered", "opening", "span")]
+    [5, 5, 6, 9]
+    >>> row["robots_before"], row["lcf_open"]
+    (14, False)
     """
     chosen = tuple(crossing_free_cuts(diagram) if cuts is None else cuts)
-    opening = Requirements("opening", openness)
-    span = Requirements("span", openness)
+    judge = OPENING.requirements(openness)
     began = time.perf_counter()
-    plain = _fewest(lcf_by_cut(diagram, cuts=chosen).values())
-    lcf_seconds = time.perf_counter() - began
-    layered = _fewest(lcf_by_cut(diagram, layered=True, cuts=chosen).values())
-    searches: dict[str, CutSearch] = {}
-    seconds: dict[str, float] = {}
-    for asked in (opening, span):
-        began = time.perf_counter()
-        searches[asked.formulation] = best_supports(
-            diagram, asked, cuts=chosen, solver=solver, limits=limits, canonical=False
+    plain = LCF.best(diagram, chosen)
+    seconds = time.perf_counter() - began
+    row = {
+        "knot": name,
+        "source": source,
+        "grid_size": diagram.size,
+        "crossings": len(plain.cable.crossings),
+        "cuts": len(chosen),
+        "openness": float(judge.openness),
+        "robots_before": plain.baseline,
+    }
+    for heuristic, found in ((LCF, plain), (LAYERED, LAYERED.best(diagram, chosen))):
+        row |= heuristic.cells(
+            robots=found.robots,
+            cut=str(found.cable.cut),
+            open=OPENING.is_met(found.cable, found.supports, judge.openness),
         )
-        seconds[asked.formulation] = time.perf_counter() - began
-        if searches[asked.formulation].interrupted:
+    row |= LCF.cells(seconds=round(seconds, 6))
+    searches: dict[SmallestSet, CutSearch] = {}
+    for program in USUAL_PROGRAMS:
+        began = time.perf_counter()
+        search = searches[program] = best_supports(
+            diagram,
+            program.requirements(openness),
+            cuts=chosen,
+            solver=solver,
+            limits=limits,
+            canonical=False,
+        )
+        if search.interrupted:
             raise KeyboardInterrupt
-    by_opening, by_span = searches["opening"], searches["span"]
-    return ComparisonRow(
-        knot=name,
-        source=source,
-        grid_size=diagram.size,
-        crossings=len(plain.cable.crossings),
-        cuts=len(chosen),
-        openness=float(opening.openness),
-        robots_before=plain.baseline,
-        lcf_robots=plain.robots,
-        lcf_cut=str(plain.cable.cut),
-        lcf_open=is_open(plain, opening),
-        lcf_seconds=round(lcf_seconds, 6),
-        layered_robots=layered.robots,
-        layered_cut=str(layered.cable.cut),
-        layered_open=is_open(layered, opening),
-        opening_robots=by_opening.best.robots if by_opening.best.found else None,
-        opening_cut=str(by_opening.best.cable.cut),
-        opening_proven=by_opening.is_proven,
-        opening_seconds=round(seconds["opening"], 6),
-        span_robots=by_span.best.robots if by_span.best.found else None,
-        span_cut=str(by_span.best.cable.cut),
-        span_proven=by_span.is_proven,
-        span_seconds=round(seconds["span"], 6),
-        paths=(
-            *(measure(path, "lcf") for path in both_methods(plain)),
-            *(
-                measure(path, "opening")
-                for path in (both_methods(by_opening.best) if by_opening.best.found else ())
-            ),
-        ),
+        row |= program.cells(
+            robots=search.best.robots if search.best.found else None,
+            cut=str(search.best.cable.cut),
+            proven=search.is_proven,
+            seconds=round(time.perf_counter() - began, 6),
+        )
+    sets: dict[str, SupportSet] = {LCF.key: plain}
+    if searches[OPENING].best.found:
+        sets[OPENING.key] = searches[OPENING].best
+    paths = [measure(path, key) for key, each in sets.items() for path in both_methods(each)]
+    return {
+        **{column: row[column] for column in names(COLUMNS)},
+        "paths": [asdict(path) for path in paths],
+    }
+
+
+def tabulated(rows: Sequence[Row]) -> Tabulation:
+    """The rows for people, with means and the paths' medians, and all of their cells for programs.
+
+    A path's columns are called `lcf_relaxation_length` and so on.
+    """
+    lines = [_display(row) for row in rows]
+    if len(rows) > 1:
+        lines.append(_averages(rows))
+    medians = f"Medians over {len(rows)} knot{'' if len(rows) == 1 else 's'}. {measures.NOTE}"
+    document = tables(
+        "",
+        table(HEADS, lines, NOTE, "l" + "r" * (len(HEADS) - 1)),
+        replace(table_of(_paths(rows), medians), sides="l" + "r" * (4 + len(PATH_HEADS))),
     )
-
-
-def is_open(result: LcfResult, requirements: Requirements) -> bool:
-    """Whether LCF's set keeps every active region open by the definition of `opening`."""
-    cable = result.cable
-    return check_opening(
-        cable.path,
-        cable.diagram.size,
-        result.supports,
-        requirements.openness,
-        requirements.threading,
-    ).is_open
-
-
-def display(row: ComparisonRow) -> list[str]:
-    """The cells of a row under `HEADS`."""
-
-    def yes(value: bool) -> str:
-        return "yes" if value else "no"
-
-    def robots(value: int | None) -> str:
-        return "none" if value is None else str(value)
-
-    return [
-        # One knot may have several grids: those of Table I are told from KnotInfo's.
-        f"{row.knot} ({row.source})" if row.source.startswith("Table I") else row.knot,
-        str(row.robots_before),
-        str(row.lcf_robots),
-        yes(row.lcf_open),
-        str(row.layered_robots),
-        yes(row.layered_open),
-        robots(row.opening_robots),
-        robots(row.span_robots),
-        yes(row.opening_proven and row.span_proven),
-    ]
-
-
-def averages(rows: list[ComparisonRow]) -> list[str]:
-    """A last line under `HEADS`: means, and how often each property holds."""
-
-    def mean(values: list[int | None]) -> str:
-        known = [value for value in values if value is not None]
-        return f"{sum(known) / len(known):.2f}" if known else "-"
-
-    def share(values: list[bool]) -> str:
-        return f"{100 * sum(values) / len(values):.0f} %"
-
-    return [
-        f"mean of {len(rows)}",
-        mean([row.robots_before for row in rows]),
-        mean([row.lcf_robots for row in rows]),
-        share([row.lcf_open for row in rows]),
-        mean([row.layered_robots for row in rows]),
-        share([row.layered_open for row in rows]),
-        mean([row.opening_robots for row in rows]),
-        mean([row.span_robots for row in rows]),
-        share([row.opening_proven and row.span_proven for row in rows]),
-    ]
-
-
-def to_csv(rows: list[ComparisonRow]) -> str:
-    """All fields of the rows as CSV."""
-    buffer = io.StringIO()
-    names = [field.name for field in fields(ComparisonRow) if field.name != "paths"]
-    names += [
+    path_names = [
         f"{supports}_{method}_{field.name}"
-        for supports in ("lcf", "opening")
+        for supports in (LCF.key, OPENING.key)
         for method in ("relaxation", "nlp")
         for field in fields(PathMeasures)
         if field.name not in PATH_KEYS
     ]
-    writer = csv.DictWriter(buffer, names, lineterminator="\n")
-    writer.writeheader()
-    for row in rows:
-        cells = asdict(row)
-        for path in cells.pop("paths"):
-            prefix = f"{path['supports']}_{path['method']}_"
-            cells |= {prefix + k: v for k, v in path.items() if k not in PATH_KEYS}
-        writer.writerow(cells)
-    return buffer.getvalue()
+    return Tabulation(document, (*names(COLUMNS), *path_names), tuple(map(_flat, rows)))
 
 
-def path_summary(rows: list[ComparisonRow]) -> list[list[str]]:
-    """Cells under `measures.SUMMARY_HEADS`: medians over the rows, by supports and method."""
-    return measures.summary(path for row in rows for path in row.paths)
-
-
-def to_markdown(rows: list[ComparisonRow]) -> str:
-    """The displayed cells and the summary of the paths as Markdown tables, with their notes."""
-    parts = []
-    for heads, lines, note in _tables(rows):
-        parts += ["| " + " | ".join(heads) + " |", "|---" + "|---:" * (len(heads) - 1) + "|"]
-        parts += ["| " + " | ".join(cells) + " |" for cells in lines]
-        parts += ["", note, ""]
-    return "\n".join(parts)
-
-
-def to_latex(rows: list[ComparisonRow]) -> str:
-    """The same two tables as LaTeX in the style of booktabs, without notes."""
-
-    def line(cells: list[str]) -> str:
-        escaped = [cell.replace("_", r"\_").replace("%", r"\%") for cell in cells]
-        return " & ".join(escaped) + r" \\"
-
-    parts = ["% needs \\usepackage{booktabs}"]
-    for heads, lines, _ in _tables(rows):
-        parts += [
-            r"\begin{tabular}{l" + "r" * (len(heads) - 1) + "}",
-            r"\toprule",
-            line(list(heads)),
-            r"\midrule",
-            *map(line, lines),
-            r"\bottomrule",
-            r"\end{tabular}",
-            "",
-        ]
-    return "\n".join(parts)
-
-
-def from_json(line: str) -> ComparisonRow:
-    """The row that `json.dumps(asdict(row))` wrote."""
-    content = json.loads(line)
-    paths = tuple(PathMeasures(**path) for path in content.pop("paths"))
-    return ComparisonRow(**content, paths=paths)
-
-
-FORMATS: dict[str, Any] = {".csv": to_csv, ".md": to_markdown, ".tex": to_latex}
-"""Suffix of a file to what writes its text."""
-
-
-def _tables(
-    rows: list[ComparisonRow],
-) -> list[tuple[tuple[str, ...], list[list[str]], str]]:
-    """Heads, lines and note of each table."""
+def _paths(rows: Sequence[Row]) -> list[list[tuple[str, str]]]:
+    """Medians over the rows, by supports and method."""
+    groups: dict[tuple[str, str], list[Row]] = {}
+    for path in (path for row in rows for path in row["paths"]):
+        groups.setdefault((path["supports"], path["method"]), []).append(path)
     return [
-        (HEADS, _lines(rows), NOTE),
-        (measures.SUMMARY_HEADS, path_summary(rows), measures.NOTE),
+        [
+            ("supports", supports),
+            ("method", method),
+            ("done", _count([path["status"] in ("solved", "converged") for path in paths])),
+            ("same knot", _count([path["same_diagram"] for path in paths])),
+            *path_medians(paths),
+            ("ms", median([p["milliseconds"] for p in paths], 0)),
+        ]
+        for (supports, method), paths in groups.items()
     ]
 
 
-def _lines(rows: list[ComparisonRow]) -> list[list[str]]:
-    lines = [display(row) for row in rows]
-    return [*lines, averages(rows)] if len(rows) > 1 else lines
+def path_medians(paths: Sequence[Row]) -> list[tuple[str, str]]:
+    """Medians of what is measured of paths, with their heads."""
+    return [(head, median([path[name] for path in paths], 3)) for name, head in PATH_HEADS.items()]
 
 
-def _fewest(results: Iterable[LcfResult]) -> LcfResult:
-    return min(results, key=lambda result: result.robots)
+def _count(held: Sequence[bool]) -> str:
+    return f"{sum(held)} of {len(held)}"
+
+
+def _flat(row: Row) -> Row:
+    """The row with its paths' measures in columns of their own."""
+    return {name: row[name] for name in names(COLUMNS)} | {
+        f"{path['supports']}_{path['method']}_{name}": value
+        for path in row["paths"]
+        for name, value in path.items()
+        if name not in PATH_KEYS
+    }
+
+
+def _display(row: Row) -> list[str]:
+    """The cells of a row under `HEADS`."""
+    # One knot may have several grids: those of Table I are told from KnotInfo's.
+    source = f" ({row['source']})" if row["source"].startswith("Table I") else ""
+    cells = [row["knot"] + source, str(row["robots_before"])]
+    for heuristic in HEURISTICS:
+        cells += [str(row[f"{heuristic.key}_robots"]), yes(row[f"{heuristic.key}_open"])]
+    for program in USUAL_PROGRAMS:
+        robots = row[f"{program.key}_robots"]
+        cells.append("none" if robots is None else str(robots))
+    return [*cells, yes(_is_proven(row))]
+
+
+def _averages(rows: Sequence[Row]) -> list[str]:
+    """A last line under `HEADS`: means, and how often each property holds."""
+
+    def average(column: str) -> str:
+        return mean([row[column] for row in rows])
+
+    cells = [f"mean of {len(rows)}", average("robots_before")]
+    for heuristic in HEURISTICS:
+        is_open = [row[f"{heuristic.key}_open"] for row in rows]
+        cells += [average(f"{heuristic.key}_robots"), percent(is_open, 0)]
+    cells += [average(f"{program.key}_robots") for program in USUAL_PROGRAMS]
+    return [*cells, percent(list(map(_is_proven, rows)), 0)]
+
+
+def _is_proven(row: Row) -> bool:
+    return all(row[f"{program.key}_proven"] for program in USUAL_PROGRAMS)

@@ -1,32 +1,31 @@
 """Table I of the paper, recomputed: robots before and after reduction by LCF, and the fewest.
 
-Beside LCF's count stand the provably smallest ones of the formulations `opening` and `span`, on
-LCF's cut and on the best one.
+Beside LCF's count stand the provably smallest ones of each formulation, on LCF's cut and on the
+best one.
 """
 
 from __future__ import annotations
 
-import csv
-import io
-import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, fields
-from typing import Any
 
 from formulations.backends import DEFAULT
-from knotopt.cable.cable import Cable
 from knotopt.cable.staircase import find_staircases
 from knotopt.catalogue.table1_grids import Table1Grid, table1_grids
-from knotopt.diagram.grid import Mark
+from knotopt.document.cells import yes
+from knotopt.document.columns import Column, Row, names
+from knotopt.document.formats import Tabulation
+from knotopt.document.model import table, tables
 from knotopt.path import measures
 from knotopt.path.measures import PathMeasures, both_methods, measure
 from knotopt.path.result import PathResult
 from knotopt.supports.lcf import LcfResult, best_cut
 from knotopt.supports.minimal import MinimalSupports, minimal_supports
-from knotopt.supports.requirements import Requirements
 from knotopt.supports.search import best_supports
+from knotopt.tables.methods import LCF, OPENING, USUAL_PROGRAMS, columns_of
 
-Support = tuple[int, int, int]
+Placed = tuple[tuple[int, int, int], ...]
+"""[index on the path (1-based), column, row] of each support."""
 
 NOTE = """\
 The paper shows its grids as pictures only, so which knots its rows show is not known: the knots \
@@ -40,69 +39,53 @@ stand the smallest numbers of robots on LCF's cut and, in brackets, on the best 
 crossing-free cuts; they are proven if no smaller set exists under that definition."""
 """What the table does and does not show; printed wherever the table is."""
 
+COLUMNS = (
+    Column("row", str, "of the paper's table"),
+    Column("knot", str, "name"),
+    Column("grid_size", int, "N"),
+    Column("crossings", int, "of the diagram"),
+    Column("cut", str, "outer cut where LCF has the fewest robots, the first of them"),
+    Column("robots_before", int, "robots at all 2N turning points"),
+    Column("robots_after", int, "robots of LCF's set"),
+    Column("robots_after_paper", int, "robots after reduction, as the paper has them"),
+    Column("reduction_percent", float, "robots that LCF saves [percent]"),
+    Column("longest_staircase", int, "crossings in the longest diagonal run (Fig. 7)"),
+    Column("supports", Placed, "LCF's: index on the path (1-based), column, row of each"),
+    Column("openness", float, "r of every formulation [grid steps]"),
+    *LCF.columns("open"),
+    *columns_of(USUAL_PROGRAMS, "same_cut", "robots", "cut", "supports"),
+    Column("solver", str, "of the smallest sets"),
+    Column("proven", bool, "whether each of them is, on every cut"),
+    Column("grid", tuple[tuple[int, int], ...], "marks of the grid diagram: column, row of each"),
+)
+"""Columns of `table1.csv` and keys of the JSON. Supports of a smallest set belong to its own cut,
+and each of them is [index on the path (1-based), column, row]."""
 
 HEADS = (
-    "row",
-    "knot",
-    "cut",
-    "before",
-    "LCF",
-    "paper",
-    "open",
-    "opening",
-    "span",
+    *("row", "knot", "cut", "before", "LCF", "paper", "open"),
+    *(method.head for method in USUAL_PROGRAMS),
     "proven",
 )
-
-
-@dataclass(frozen=True)
-class Table1Row:
-    """One row; the fields are the columns of the CSV and the keys of the JSON.
-
-    `supports` holds [index on the path (1-based), column, row] of each support robot of LCF,
-    `opening_supports` and `span_supports` those of the smallest sets, which belong to their own
-    best cuts; `*_same_cut` are the smallest numbers on LCF's cut;
-    `longest_staircase` is the number of crossings in the longest diagonal run (Fig. 7);
-    `grid` holds the marks [column, row] of the grid diagram.
-    """
-
-    row: str
-    knot: str
-    grid_size: int
-    crossings: int
-    cut: str
-    robots_before: int
-    robots_after: int
-    robots_after_paper: int
-    reduction_percent: float
-    longest_staircase: int
-    supports: tuple[Support, ...]
-    openness: float
-    lcf_open: bool
-    opening_same_cut: int
-    opening_robots: int
-    opening_cut: str
-    opening_supports: tuple[Support, ...]
-    span_same_cut: int
-    span_robots: int
-    span_cut: str
-    span_supports: tuple[Support, ...]
-    solver: str
-    proven: bool
-    grid: tuple[Mark, ...]
 
 
 @dataclass(frozen=True)
 class Table1Result:
     """A row, and what it summarises: LCF on its best outer cut, the smallest sets on theirs.
 
-    `relaxed` and `optimised` are the paths of LCF's set.
+    Attributes
+    ----------
+    cells : Row
+        Of `COLUMNS`.
+    lcf : LcfResult
+    smallest : tuple of MinimalSupports
+        One a formulation.
+    relaxed, optimised : PathResult
+        The paths of LCF's set.
     """
 
-    row: Table1Row
+    cells: Row
     lcf: LcfResult
-    opening: MinimalSupports
-    span: MinimalSupports
+    smallest: tuple[MinimalSupports, ...]
     relaxed: PathResult
     optimised: PathResult
 
@@ -122,7 +105,8 @@ def compute_table1(*, all_grids: bool = False) -> Iterator[Table1Result]:
 
     Examples
     --------
-    >>> [(each.row.robots_after, each.row.opening_robots) for each in compute_table1()]
+    >>> rows = [result.cells for result in compute_table1()]
+    >>> [(row["robots_after"], row["opening_robots"]) for row in rows]
     [(5, 5), (5, 5), (5, 6), (7, 12), (8, 6), (6, 5)]
     """
     return (_result(grid) for grid in chosen_grids(all_grids=all_grids))
@@ -133,118 +117,77 @@ def chosen_grids(*, all_grids: bool = False) -> list[Table1Grid]:
     return [grid for grid in table1_grids() if grid.preferred or all_grids]
 
 
-def display(row: Table1Row) -> list[str]:
-    """The cells of a row under `HEADS`, for people."""
-    return [
-        row.row,
-        row.knot,
-        row.cut,
-        str(row.robots_before),
-        str(row.robots_after),
-        str(row.robots_after_paper),
-        "yes" if row.lcf_open else "no",
-        f"{row.opening_same_cut} ({row.opening_robots})",
-        f"{row.span_same_cut} ({row.span_robots})",
-        "yes" if row.proven else "no",
-    ]
+def tabulated(results: Sequence[Table1Result]) -> Tabulation:
+    """The table, and every cell of it."""
+    rows = [_display(result.cells) for result in results]
+    document = tables("Table I, recomputed", table(HEADS, rows, NOTE, "l" * len(HEADS)))
+    return Tabulation(document, names(COLUMNS), tuple(result.cells for result in results))
 
 
-def table1_csv(rows: list[Table1Row]) -> str:
-    """The rows as CSV; `supports` and `grid` are JSON lists in their cells."""
-    buffer = io.StringIO()
-    names = [field.name for field in fields(Table1Row)]
-    writer = csv.DictWriter(buffer, names, lineterminator="\n")
-    writer.writeheader()
-    for row in rows:
-        writer.writerow(_cells(row))
-    return buffer.getvalue()
-
-
-def table1_markdown(rows: list[Table1Row]) -> str:
-    """The rows as a Markdown table with the note."""
-    lines = ["| " + " | ".join(HEADS) + " |", "|---" * len(HEADS) + "|"]
-    lines += ["| " + " | ".join(display(row)) + " |" for row in rows]
-    return "\n".join(["# Table I, recomputed", "", *lines, "", NOTE, ""])
-
-
-PATH_HEADS = ("row", "knot", *measures.HEADS)
-
-
-def display_paths(results: list[Table1Result]) -> list[list[str]]:
-    """The cells under `PATH_HEADS` of the paths of every row."""
-    return [
-        [result.row.row, result.row.knot, *measures.display(path)]
+def tabulated_paths(results: Sequence[Table1Result]) -> Tabulation:
+    """The measures of the paths of every row."""
+    heads = ("row", "knot", *measures.HEADS)
+    paths = [
+        ((result.cells["row"], result.cells["knot"]), path)
         for result in results
         for path in result.paths
     ]
+    rows = [(*place, *measures.display(path)) for place, path in paths]
+    shown = table(heads, rows, measures.NOTE, "l" * len(heads))
+    return Tabulation(
+        tables("Table I: paths on LCF's supports", shown),
+        ("row", "knot", *(field.name for field in fields(PathMeasures))),
+        tuple({"row": row, "knot": knot, **asdict(path)} for (row, knot), path in paths),
+    )
 
 
-def paths_csv(results: list[Table1Result]) -> str:
-    """The measures of every path as CSV."""
-    buffer = io.StringIO()
-    names = ["row", "knot", *(field.name for field in fields(PathMeasures))]
-    writer = csv.DictWriter(buffer, names, lineterminator="\n")
-    writer.writeheader()
-    for result in results:
-        for path in result.paths:
-            writer.writerow({"row": result.row.row, "knot": result.row.knot, **asdict(path)})
-    return buffer.getvalue()
-
-
-def paths_markdown(results: list[Table1Result]) -> str:
-    """The displayed measures as a Markdown table with the note."""
-    lines = ["| " + " | ".join(PATH_HEADS) + " |", "|---" * len(PATH_HEADS) + "|"]
-    lines += ["| " + " | ".join(cells) + " |" for cells in display_paths(results)]
-    return "\n".join(["# Table I: paths on LCF's supports", "", *lines, "", measures.NOTE, ""])
+def _display(row: Row) -> list[str]:
+    """The cells of a row under `HEADS`."""
+    shown = ("row", "knot", "cut", "robots_before", "robots_after", "robots_after_paper")
+    return [
+        *(str(row[name]) for name in shown),
+        yes(row["lcf_open"]),
+        *(f"{row[f'{m.key}_same_cut']} ({row[f'{m.key}_robots']})" for m in USUAL_PROGRAMS),
+        yes(row["proven"]),
+    ]
 
 
 def _result(grid: Table1Grid) -> Table1Result:
     result = best_cut(grid.diagram)
     cable = result.cable
     longest = max((len(run) for run in find_staircases(cable, min_length=1)), default=0)
-    opening, opening_same, opening_proven = _smallest(cable, Requirements("opening"))
-    span, span_same, span_proven = _smallest(cable, Requirements("span"))
-    row = Table1Row(
-        row=grid.row,
-        knot=grid.knot,
-        grid_size=cable.diagram.size,
-        crossings=len(cable.crossings),
-        cut=str(cable.cut),
-        robots_before=result.baseline,
-        robots_after=result.robots,
-        robots_after_paper=grid.robots_after_paper,
-        reduction_percent=result.reduction_percent,
-        longest_staircase=longest,
-        supports=result.placed_supports,
-        openness=float(opening.requirements.openness),
-        lcf_open=opening_same.lcf_report.is_open,
-        opening_same_cut=opening_same.robots,
-        opening_robots=opening.robots,
-        opening_cut=str(opening.cable.cut),
-        opening_supports=opening.placed_supports,
-        span_same_cut=span_same.robots,
-        span_robots=span.robots,
-        span_cut=str(span.cable.cut),
-        span_supports=span.placed_supports,
-        solver=DEFAULT,
-        proven=opening_proven and span_proven,
-        grid=grid.marks,
-    )
-    return Table1Result(row, result, opening, span, *both_methods(result))
-
-
-def _smallest(
-    cable: Cable, requirements: Requirements
-) -> tuple[MinimalSupports, MinimalSupports, bool]:
-    """The smallest sets on the best cut and on the cable's own, and whether both are proven."""
-    search = best_supports(cable.diagram, requirements)
-    same = minimal_supports(cable, requirements)
-    return search.best, same, search.is_proven and same.is_proven
-
-
-def _cells(row: Table1Row) -> dict[str, Any]:
-    cells = {field.name: getattr(row, field.name) for field in fields(Table1Row)}
-    return {
-        name: json.dumps(value) if isinstance(value, tuple) else value
-        for name, value in cells.items()
+    openness = OPENING.requirements().openness
+    smallest, proven = [], []
+    cells: Row = {}
+    for method in USUAL_PROGRAMS:
+        search = best_supports(cable.diagram, method.requirements())
+        same = minimal_supports(cable, method.requirements())
+        best = search.best
+        smallest.append(best)
+        proven += [search.is_proven, same.is_proven]
+        cells |= method.cells(
+            same_cut=same.robots,
+            robots=best.robots,
+            cut=str(best.cable.cut),
+            supports=best.placed_supports,
+        )
+    cells |= {
+        "row": grid.row,
+        "knot": grid.knot,
+        "grid_size": cable.diagram.size,
+        "crossings": len(cable.crossings),
+        "cut": str(cable.cut),
+        "robots_before": result.baseline,
+        "robots_after": result.robots,
+        "robots_after_paper": grid.robots_after_paper,
+        "reduction_percent": result.reduction_percent,
+        "longest_staircase": longest,
+        "supports": result.placed_supports,
+        "openness": float(openness),
+        **LCF.cells(open=OPENING.is_met(cable, result.supports, openness)),
+        "solver": DEFAULT,
+        "proven": all(proven),
+        "grid": grid.marks,
     }
+    in_order = {name: cells[name] for name in names(COLUMNS)}
+    return Table1Result(in_order, result, tuple(smallest), *both_methods(result))

@@ -7,7 +7,6 @@ dots sorted by depth are all there is to show, and a 3-D library would be most o
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
@@ -15,12 +14,12 @@ from typing import Any
 import numpy as np
 
 from knotopt.arrays import IntArray
+from knotopt.document.pages import filled, page, part
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.record import FlightRecord
 from knotopt.supports.regions import Regions
 from knotopt.viewer.colours import ramp
 from knotopt.viewer.packing import frame_count, packed_motion, packed_text, resampled
-from knotopt.viewer.parts import digest, part
 
 SCRIPTS = ("unpack", "catenary", "canvas", "flight", "scene", "above", "heights", "player")
 ROUTE_POINTS = 1500  # of the leader's route that are drawn, at most
@@ -60,23 +59,22 @@ def flight_page(
     RequirementError
         A plan or a record has positions that are not finite numbers.
     """
-    script = '(() => {\n"use strict";\n' + "\n".join(part(f"{s}.js") for s in SCRIPTS) + "\n})();"
-    style = part("page.css")
+    scripts = (part(__package__, f"{name}.js") for name in SCRIPTS)
+    script = '(() => {\n"use strict";\n' + "\n".join(scripts) + "\n})();"
+    title = f"Flight of {plan.name}"
     parts = {
-        "policy": f"default-src 'none'; img-src data:; script-src '{digest(script)}'; "
-        f"style-src '{digest(style)}'",
-        "title": escape(f"Flight of {plan.name}"),
+        "title": escape(title),
         "facts": _facts(plan),
         "notes": "".join(f"<li>{escape(note)}</li>" for note in plan.notes),
         "measures": _measures(measures),
         "planned": _planned(plan),
         "events": _events(events),
-        "style": style,
         "script": script,
         # No "<" is left that could end the element early.
         "data": json.dumps(_data(plan, records, downloads or {})).replace("<", "\\u003c"),
     }
-    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], part("page.html"))
+    body = filled(part(__package__, "flight.html"), parts)
+    return page(title, body, part(__package__, "flight.css"), script)
 
 
 def _data(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -11,24 +11,25 @@ import numpy as np
 import pytest
 
 from knotopt.atlas import flights
+from knotopt.atlas.columns import FILES
 from knotopt.atlas.engine import Local
 from knotopt.atlas.flights import fly_set, fly_sets
 from knotopt.atlas.measure import KnotResult, measure_knot
-from knotopt.atlas.optional_rows import FlightRow, FlightTimesRow
 from knotopt.atlas.report.flights import OUTCOMES, agreement_table, tied_table
-from knotopt.atlas.report.markdown import markdown
 from knotopt.atlas.report.report import report_document
 from knotopt.atlas.report.results import Results, read_results
 from knotopt.atlas.run import run_atlas
-from knotopt.atlas.schema import FLIGHT_TIMES, FLIGHTS, Settings, meaning
+from knotopt.atlas.schema import FLIGHT_TIMES, FLIGHTS, Settings
 from knotopt.atlas.store import read_manifest, read_rows
 from knotopt.cable.cable import Cable
 from knotopt.catalogue.lookup import find_knot
+from knotopt.document.columns import Row
+from knotopt.document.markdown import markdown
 from knotopt.errors import MissingExtraError, RequirementError
 from knotopt.sim.judge import Outcome, Verdict
 from knotopt.sim.trials import Flight, wilson_interval
 from knotopt.supports.lcf import lcf
-from knotopt.supports.requirements import Formulation
+from knotopt.tables.methods import OPENING
 from tests.conftest import Cli
 from tests.small_atlas import LIST, Replay, contents
 from tests.small_flight import small_plan, small_record
@@ -47,11 +48,11 @@ def stub(_: str, cable: Cable, supports: Supports) -> tuple[Flight | str, tuple[
     return ("no way", (1.0, 0.0)) if str(cable.cut) == "L-" else (LOST, (1.0, 2.0))
 
 
-def only_row(monkeypatch: pytest.MonkeyPatch, flown: Flight | str) -> FlightRow:
+def only_row(monkeypatch: pytest.MonkeyPatch, flown: Flight | str) -> Row:
     """The row of LCF's set for the trefoil, flown like that."""
     knot = LIST[0]
     monkeypatch.setattr(flights, "fly_set", lambda *_: (flown, (1.0, 2.0)))
-    programs = {Formulation.OPENING: SimpleNamespace(supports=None, allows=lambda _: True)}
+    programs = {OPENING: SimpleNamespace(supports=None, allows=lambda _: True)}
     (row,), _ = fly_sets(knot, lcf(Cable(knot.diagram, "L+")), programs)
     return row
 
@@ -79,9 +80,14 @@ def test_a_set_that_ties(monkeypatch: pytest.MonkeyPatch) -> None:
     flown, seconds = fly_set("3_1", Cable(find_knot("3_1").diagram, "L-"), (3, 4, 5))
     assert isinstance(flown, Flight) and min(seconds) > 0
     row = only_row(monkeypatch, flown)
-    assert (row.planned, row.tied, row.outcome) == (True, True, "tied")
-    assert (row.verdict, row.why) == ("tied: 3_1", "")
-    measures = (row.flight_seconds, row.separation, row.strand_distance, row.cable_length)
+    assert (row["planned"], row["tied"], row["outcome"]) == (True, True, "tied")
+    assert (row["verdict"], row["why"]) == ("tied: 3_1", "")
+    measures = (
+        row["flight_seconds"],
+        row["separation"],
+        row["strand_distance"],
+        row["cable_length"],
+    )
     assert all(value is not None and value > 0 for value in measures)
 
 
@@ -93,14 +99,18 @@ def test_a_set_without_a_plan(monkeypatch: pytest.MonkeyPatch) -> None:
     flown, seconds = fly_set("3_1", Cable(find_knot("3_1").diagram, "L-"), (3,))
     assert flown == "no way for span 4" and seconds[0] > seconds[1] == 0
     row = only_row(monkeypatch, flown)
-    assert (row.planned, row.tied, row.why) == (False, False, "no way for span 4")
-    assert row.outcome is row.flight_seconds is row.tension is row.separation is None
+    assert (row["planned"], row["tied"], row["why"]) == (False, False, "no way for span 4")
+    assert row["outcome"] is row["flight_seconds"] is row["tension"] is row["separation"] is None
 
 
 def test_a_flight_that_cannot_be_examined(monkeypatch: pytest.MonkeyPatch) -> None:
     broken = replace(LOST.record, cable=np.full_like(LOST.record.cable, np.nan))
     row = only_row(monkeypatch, replace(LOST, record=broken))
-    assert (row.planned, row.separation, row.why) == (True, None, "the simulation broke down")
+    assert (row["planned"], row["separation"], row["why"]) == (
+        True,
+        None,
+        "the simulation broke down",
+    )
 
 
 def test_rows(folder: Path, found: dict[int, KnotResult]) -> None:
@@ -109,18 +119,18 @@ def test_rows(folder: Path, found: dict[int, KnotResult]) -> None:
     assert [row["supports"] for row in rows] == [row["supports"] for row in times] == kinds
     atlas = [row for number in (1, 2) for row in found[number].rows]
     for row, measured in zip(rows, [each for each in atlas for _ in range(3)], strict=True):
-        assert (row["knot"], row["cut"]) == (measured.knot, measured.cut)
-        assert row["robots"] == getattr(measured, f"{row['supports']}_robots")
+        assert (row["knot"], row["cut"]) == (measured["knot"], measured["cut"])
+        assert row["robots"] == measured[f"{row['supports']}_robots"]
         if row["supports"] == "lcf":
-            assert row["opening_open"] == measured.lcf_open
+            assert row["opening_open"] == measured["lcf_open"]
         assert row["opening_open"] or row["supports"] != "opening"
         assert row["span_open"] or row["supports"] != "span"
         assert row["planned"] or row["cut"] == "L-"
     assert {row["span_open"] for row in rows} == {True, False}
-    for name, row_class in ((FLIGHTS, FlightRow), (FLIGHT_TIMES, FlightTimesRow)):
+    for name in (FLIGHTS, FLIGHT_TIMES):
         schema = read_rows(folder, name).schema
-        for column in fields(row_class):
-            assert schema.field(column.name).metadata[b"meaning"].decode() == meaning(column)
+        for column in FILES[name]:
+            assert schema.field(column.name).metadata[b"meaning"].decode() == column.meaning
     assert {"mujoco", "scipy"} < set(read_manifest(folder).versions)
 
 
@@ -135,7 +145,7 @@ def test_equal_sets_fly_once(monkeypatch: pytest.MonkeyPatch) -> None:
     result = measure_knot(LIST[0], SETTINGS)
     assert len(flown) == len(set(flown)) < 24
     times = result.requested[FLIGHT_TIMES]
-    assert sum(row.simulation_seconds > 0 for row in times) == len(flown)
+    assert sum(row["simulation_seconds"] > 0 for row in times) == len(flown)
     assert len(times) == len(result.requested[FLIGHTS]) == 24
 
 

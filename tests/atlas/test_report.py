@@ -6,7 +6,6 @@ import csv
 import io
 import re
 import shutil
-import subprocess
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -20,15 +19,11 @@ from scipy.stats import spearmanr
 from knotopt.atlas.engine import Local
 from knotopt.atlas.knot_list import knot_rows
 from knotopt.atlas.report import cases, invariants
+from knotopt.atlas.report.atlas_csv import COLUMNS, atlas_csv
 from knotopt.atlas.report.cuts import by_cut_table, spread_table
-from knotopt.atlas.report.document import Document, Picture, Section, Table, table
 from knotopt.atlas.report.families import alternating_table, families_table
 from knotopt.atlas.report.heuristic import class_table, classes, variants_table
 from knotopt.atlas.report.invariants import TORUS, TWIST, Invariants
-from knotopt.atlas.report.latex import latex
-from knotopt.atlas.report.listing import COLUMNS, listing
-from knotopt.atlas.report.markdown import markdown
-from knotopt.atlas.report.page import page
 from knotopt.atlas.report.relations import correlation_table, invariant_columns, partial_spearman
 from knotopt.atlas.report.report import report_document, report_files
 from knotopt.atlas.report.results import Results, read_results
@@ -40,11 +35,13 @@ from knotopt.atlas.store import read_rows
 from knotopt.cable.cut import OUTER_CUTS
 from knotopt.catalogue.knotinfo import is_installed
 from knotopt.catalogue.lookup import find_knot
+from knotopt.document.markdown import markdown
+from knotopt.document.model import Table
 from knotopt.errors import OutputError
 from knotopt.verify.opening import check_opening
+from tests.typesetting import typeset
 
 NAMES = ("3_1", "5_1", "5_2", "8_1", "8_19", "8_20", "8_21")
-HOSTILE = r"""a_b {c} 50 % #1 \x ~ ^ "q" <script>alert(1)</script> | & $ * ü `m_n`"""
 
 
 def run(folder: Path, names: tuple[str, ...], settings: Settings | None = None) -> Results:
@@ -94,7 +91,7 @@ def test_means_and_distribution(results: Results, rows: list[dict[str, Any]]) ->
         best = [min(values) for values in by_knot(rows, key).values()]
         assert cells["all, best cut of each"] == f"{mean(best):.2f}"
     fewest = Counter(min(values) for values in by_knot(rows, "opening_robots").values())
-    spread = distribution_table(results)
+    spread = distribution_table(results, "opening_robots")
     for head in spread.heads[2:]:
         assert column(spread, head)["all"] == (str(fewest[int(head)]) if fewest[int(head)] else "")
     assert sum(int(cell or 0) for cell in spread.rows[-1][2:]) == len(NAMES)
@@ -235,8 +232,8 @@ def test_cases_are_what_they_are_called(results: Results) -> None:
                 assert report.is_open == expected
 
 
-def test_listing(results: Results, rows: list[dict[str, Any]]) -> None:
-    read = list(csv.DictReader(io.StringIO(listing(results))))
+def test_atlas_csv(results: Results, rows: list[dict[str, Any]]) -> None:
+    read = list(csv.DictReader(io.StringIO(atlas_csv(results))))
     assert list(read[0]) == [name for name in COLUMNS if not name.startswith("span")]
     for line, row in zip(read, rows, strict=True):
         assert (line["knot"], line["cut"]) == (row["knot"], row["cut"])
@@ -306,91 +303,13 @@ def test_unfinished_and_damaged_runs(results: Results, folder: Path, tmp_path: P
     assert len(results.knots) == len(NAMES)
 
 
-def hostile() -> Document:
-    return Document(
-        HOSTILE,
-        ((HOSTILE, HOSTILE),),
-        (
-            Section(
-                HOSTILE,
-                (
-                    HOSTILE,
-                    (HOSTILE,),
-                    table((HOSTILE, "n"), [(HOSTILE, "1,000")], HOSTILE),
-                    Picture("drawn", HOSTILE, HOSTILE),
-                ),
-            ),
-        ),
-    )
-
-
-def test_markdown_of_any_text() -> None:
-    text = markdown(hostile())
-    assert r"a\_b" in text
-    assert "<script>" not in text.replace(r"\<script\>", "")
-    (rule,) = re.findall(r"^\| -.*$", text, re.MULTILINE)
-    assert rule == "| --- | ---: |"
-    for line in text.splitlines():
-        if line.startswith("|"):
-            assert len(re.findall(r"(?<!\\)\|", line)) == 3
-
-
-def test_page_of_any_text() -> None:
-    text = page(hostile(), {"drawn": b"<svg/>"})
-    assert "<script" not in text
-    assert "default-src 'none'" in text
-    assert not re.findall(r'(?:src|href)="(?!data:|#)', text)
-    assert "&lt;script&gt;" in text
-    assert "<code>m_n</code>" in text
-
-
-def test_latex_of_any_text(tmp_path: Path) -> None:
-    text = latex(hostile())
-    assert text.isascii()
-    begun = re.findall(r"\\begin\{(\w+)\}", text)
-    assert Counter(begun) == Counter(re.findall(r"\\end\{(\w+)\}", text))
-    bare = re.sub(r"\\[{}]", "", text)
-    assert bare.count("{") == bare.count("}")
-    assert r"a\_b \{c\} 50 \% \#1 \textbackslash{}x" in text
-    _typeset(
-        text.replace(r"\includegraphics", r"\iffalse\includegraphics").replace(
-            "drawn.pdf}", r"drawn.pdf}\fi"
-        ),
-        tmp_path,
-    )
-
-
 @pytest.mark.slow
 def test_latex_of_a_report(results: Results, tmp_path: Path) -> None:
     for name, content in report_files(results).items():
         data = content.encode() if isinstance(content, str) else content
         (tmp_path / name).write_bytes(data)
-    log = _typeset((tmp_path / "report.tex").read_text(encoding="utf-8"), tmp_path)
+    log = typeset((tmp_path / "report.tex").read_text(encoding="utf-8"), tmp_path)
     assert "Overfull" not in log
-
-
-def _typeset(text: str, folder: Path) -> str:
-    """What LaTeX has to say; nothing where it is not installed."""
-    if shutil.which("pdflatex") is None:
-        return ""
-    (folder / "typeset.tex").write_text(text, encoding="utf-8")
-    done = subprocess.run(
-        ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "typeset.tex"],
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        errors="replace",
-        check=False,
-    )
-    assert done.returncode == 0, done.stdout[-2000:]
-    assert (folder / "typeset.pdf").exists()
-    return done.stdout
-
-
-def test_document_is_checked() -> None:
-    with pytest.raises(ValueError, match="has 1 cells under 2 heads"):
-        table(("a", "b"), [("1",)], "")
-    assert table(("a", "b"), [("x", "–"), ("y", "−0.5")], "").is_number == (False, True)
 
 
 def test_refused_spans_are_said(results: Results) -> None:

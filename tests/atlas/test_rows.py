@@ -11,6 +11,7 @@ import pyarrow as pa
 import pytest
 
 from knotopt.atlas import run as running
+from knotopt.atlas.columns import FILES
 from knotopt.atlas.engine import Local
 from knotopt.atlas.knot_list import catalogue_rows, folder_rows
 from knotopt.atlas.measure import KnotResult, agrees_with_definition, measure_knot
@@ -22,16 +23,15 @@ from knotopt.atlas.schema import (
     PARTS,
     PATHS,
     TIMES,
-    AtlasRow,
     KnotRow,
     Manifest,
     Settings,
-    meaning,
 )
 from knotopt.atlas.store import read_manifest, read_rows
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import OUTER_CUTS
 from knotopt.catalogue.lookup import find_knot
+from knotopt.document.columns import names
 from knotopt.errors import FileFormatError, OutputError, RequirementError
 from knotopt.supports.registry import FORMULATIONS
 from knotopt.supports.search import best_supports
@@ -43,39 +43,41 @@ from tests.small_atlas import LIST, SETTINGS, Replay, contents
 def test_rows_agree_with_compare_and_search(results: dict[int, KnotResult]) -> None:
     for knot in LIST[:3]:
         rows = results[knot.number].rows
-        assert [row.cut for row in rows] == list(OUTER_CUTS)
+        assert [row["cut"] for row in rows] == list(OUTER_CUTS)
         best = compare(
             knot.knot, knot.diagram, cuts=[Cable(knot.diagram, c).cut for c in OUTER_CUTS]
         )
-        first = min(rows, key=lambda row: row.lcf_robots)
-        assert (first.lcf_robots, first.cut, first.lcf_open) == (
-            best.lcf_robots,
-            best.lcf_cut,
-            best.lcf_open,
+        first = min(rows, key=lambda row: row["lcf_robots"])
+        assert (first["lcf_robots"], first["cut"], first["lcf_open"]) == (
+            best["lcf_robots"],
+            best["lcf_cut"],
+            best["lcf_open"],
         )
-        layered = min(rows, key=lambda row: row.layered_robots)
-        assert (layered.layered_robots, layered.layered_open) == (
-            best.layered_robots,
-            best.layered_open,
+        layered = min(rows, key=lambda row: row["layered_robots"])
+        assert (layered["layered_robots"], layered["layered_open"]) == (
+            best["layered_robots"],
+            best["layered_open"],
         )
-        assert min(row.opening_robots or 99 for row in rows) == best.opening_robots
-        assert {row.baseline for row in rows} == {best.robots_before}
-        assert {row.crossings for row in rows} == {best.crossings}
+        assert min(row["opening_robots"] or 99 for row in rows) == best["opening_robots"]
+        assert {row["baseline"] for row in rows} == {best["robots_before"]}
+        assert {row["crossings"] for row in rows} == {best["crossings"]}
 
 
 def test_both_threading_modes_and_span(results: dict[int, KnotResult]) -> None:
     knot = LIST[3]
     result = measure_knot(knot, Settings(span=True, check=1))
     for row in result.rows:
-        cut = [Cable(knot.diagram, row.cut).cut]
+        cut = [Cable(knot.diagram, row["cut"]).cut]
         other = best_supports(knot.diagram, _asked("opening", "over-under"), cuts=cut)
-        assert row.over_under_robots == other.best.robots
-        assert row.span_robots == best_supports(knot.diagram, _asked("span"), cuts=cut).best.robots
-        assert row.over_under_robots <= (row.opening_robots or 0)
-        assert row.span_status == row.opening_status == "optimal"
-        assert row.checked
+        assert row["over_under_robots"] == other.best.robots
+        assert (
+            row["span_robots"] == best_supports(knot.diagram, _asked("span"), cuts=cut).best.robots
+        )
+        assert row["over_under_robots"] <= (row["opening_robots"] or 0)
+        assert row["span_status"] == row["opening_status"] == "optimal"
+        assert row["checked"]
     plain = results[knot.number].rows
-    assert [replace(row, **_no_span()) for row in result.rows] == list(plain)
+    assert [row | _no_span() for row in result.rows] == list(plain)
 
 
 def _asked(formulation: str, threading: str | None = None) -> Any:
@@ -85,28 +87,28 @@ def _asked(formulation: str, threading: str | None = None) -> Any:
 
 
 def _no_span() -> dict[str, None]:
-    return {column.name: None for column in fields(AtlasRow) if column.name.startswith("span_")}
+    return {name: None for name in names(FILES[ATLAS]) if name.startswith("span_")}
 
 
 def test_lcf_below_means_that_no_open_set_is_as_small(results: dict[int, KnotResult]) -> None:
     rows = [row for result in results.values() for row in result.rows]
-    assert {row.lcf_below for row in rows} == {True, False}
+    assert {row["lcf_below"] for row in rows} == {True, False}
     for row in rows:
-        assert row.lcf_below == (row.lcf_robots < (row.opening_robots or 0))
-        assert not (row.lcf_below and row.lcf_open)
+        assert row["lcf_below"] == (row["lcf_robots"] < (row["opening_robots"] or 0))
+        assert not (row["lcf_below"] and row["lcf_open"])
 
 
 def test_checkers_agree_and_notice_what_is_wrong(results: dict[int, KnotResult]) -> None:
     rows = [row for result in results.values() for row in result.rows]
-    assert all(row.checked for row in rows)
+    assert all(row["checked"] for row in rows)
     row = results[1].rows[0]
-    cable = Cable(LIST[0].diagram, row.cut)
+    cable = Cable(LIST[0].diagram, row["cut"])
     for wrong in (
-        replace(row, lcf_open=not row.lcf_open),
-        replace(row, layered_open_over_under=not row.layered_open_over_under),
-        replace(row, opening_supports=row.opening_supports[1:]),
-        replace(row, over_under_supports=()),
-        replace(row, span_supports=()),
+        row | {"lcf_open": not row["lcf_open"]},
+        row | {"layered_open_over_under": not row["layered_open_over_under"]},
+        row | {"opening_supports": row["opening_supports"][1:]},
+        row | {"over_under_supports": ()},
+        row | {"span_supports": ()},
     ):
         assert not agrees_with_definition(cable, wrong, SETTINGS)
 
@@ -125,8 +127,8 @@ def test_one_knot_in_so_many_is_checked() -> None:
 def test_openness_counts() -> None:
     loose = measure_knot(LIST[2], Settings("1/10")).rows
     strict = measure_knot(LIST[2], Settings("1")).rows
-    assert sum(row.opening_robots or 0 for row in loose) < sum(
-        row.opening_robots or 0 for row in strict
+    assert sum(row["opening_robots"] or 0 for row in loose) < sum(
+        row["opening_robots"] or 0 for row in strict
     )
 
 
@@ -152,18 +154,19 @@ def test_files_of_a_whole_run(whole: Path, results: dict[int, KnotResult]) -> No
     assert sorted(path.name for path in whole.iterdir()) == [ATLAS, KNOTS, MANIFEST, TIMES]
     atlas, times = read_rows(whole, ATLAS), read_rows(whole, TIMES)
     rows = [_tuples(row) for row in atlas.to_pylist()]
-    assert [AtlasRow(**row) for row in rows] == [
-        row for number in sorted(results) for row in results[number].rows
-    ]
+    assert rows == [row for number in sorted(results) for row in results[number].rows]
     for column in ("number", "knot", "cut"):
         assert times[column] == atlas[column]
     assert {len(result.times) for result in results.values()} == {8}
     listed = [KnotRow(**_tuples(row)) for row in read_rows(whole, KNOTS).to_pylist()]
     assert tuple(listed) == LIST
-    for row_class, table in ((AtlasRow, atlas), (KnotRow, read_rows(whole, KNOTS))):
-        for column in fields(row_class):
-            documented = table.schema.field(column.name).metadata[b"meaning"].decode()
-            assert documented == meaning(column) != ""
+    assert tuple(field.name for field in fields(KnotRow)) == names(FILES[KNOTS])
+    for name in (ATLAS, KNOTS, TIMES):
+        schema = read_rows(whole, name).schema
+        assert tuple(schema.names) == names(FILES[name])
+        for column in FILES[name]:
+            documented = schema.field(column.name).metadata[b"meaning"].decode()
+            assert documented == column.meaning != ""
     manifest = json.loads(atlas.schema.metadata[b"knotopt"])
     assert manifest == json.loads((whole / MANIFEST).read_text())
     assert manifest["settings"]["seed"] == 0
@@ -262,7 +265,11 @@ def test_span_refused(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setitem(FORMULATIONS, "span", replace(SPAN, compile=too_large))
     row = measure_knot(LIST[0], Settings(span=True)).rows[0]
-    assert (row.span_status, row.span_robots, row.opening_status) == ("refused", None, "optimal")
+    assert (row["span_status"], row["span_robots"], row["opening_status"]) == (
+        "refused",
+        None,
+        "optimal",
+    )
 
 
 def test_manifest_is_its_text() -> None:

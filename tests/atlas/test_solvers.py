@@ -6,7 +6,7 @@ import json
 import shutil
 import signal
 import sys
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +17,9 @@ from formulations.backends import BACKENDS
 from formulations.instance import Instance
 from formulations.solution import BackendError, Limits, Solution, Status
 from knotopt.atlas import solvers, store
+from knotopt.atlas.columns import FILES
 from knotopt.atlas.engine import Local
 from knotopt.atlas.measure import measure_knot
-from knotopt.atlas.optional_rows import SolverRow, SolverTimesRow
-from knotopt.atlas.report.markdown import markdown
 from knotopt.atlas.report.performance import SOLVERS as STYLES
 from knotopt.atlas.report.report import report_document
 from knotopt.atlas.report.results import Results, read_results
@@ -36,10 +35,11 @@ from knotopt.atlas.schema import (
     TIMES,
     Manifest,
     Settings,
-    meaning,
 )
 from knotopt.atlas.solvers import PACKAGES, REFUSED
 from knotopt.atlas.store import read_manifest, read_rows
+from knotopt.document.columns import Row, names
+from knotopt.document.markdown import markdown
 from knotopt.errors import MissingExtraError, OutputError, RequirementError, SolverError
 from tests.cli import test_atlas as killing
 from tests.conftest import Cli
@@ -83,11 +83,11 @@ def test_all_solvers_find_the_same(folder: Path) -> None:
 
 
 def test_columns_say_what_they_hold(folder: Path) -> None:
-    for name, row_class in ((SOLVERS, SolverRow), (SOLVER_TIMES, SolverTimesRow)):
+    for name in (SOLVERS, SOLVER_TIMES):
         schema = read_rows(folder, name).schema
-        assert schema.names == [column.name for column in fields(row_class)]
-        for column in fields(row_class):
-            assert schema.field(column.name).metadata[b"meaning"].decode() == meaning(column)
+        assert tuple(schema.names) == names(FILES[name])
+        for column in FILES[name]:
+            assert schema.field(column.name).metadata[b"meaning"].decode() == column.meaning
 
 
 def test_versions_of_solvers_only_when_asked(folder: Path, whole: Path) -> None:
@@ -193,7 +193,7 @@ class Stub:
         return self.answer
 
 
-def answers(answer: Solution | Exception, monkeypatch: pytest.MonkeyPatch) -> list[SolverRow]:
+def answers(answer: Solution | Exception, monkeypatch: pytest.MonkeyPatch) -> list[Row]:
     """The rows of 3_1 where HiGHS is such a solver."""
     real = solvers.find_backend
     solvers.warm.cache_clear()
@@ -209,20 +209,22 @@ def answers(answer: Solution | Exception, monkeypatch: pytest.MonkeyPatch) -> li
 def test_sets_that_are_none(monkeypatch: pytest.MonkeyPatch) -> None:
     ends = (1, 10)
     lost = answers(Solution(Status.OPTIMAL, "sure", ends, 2, 2), monkeypatch)
-    assert {(row.satisfies, row.meets_definition, row.proven) for row in lost} == {
+    assert {(row["satisfies"], row["meets_definition"], row["proven"]) for row in lost} == {
         (False, False, True)
     }
     failed = answers(Solution(Status.ERROR, "crashed"), monkeypatch)
-    assert {(row.status, row.satisfies, row.meets_definition) for row in failed} == {
+    assert {(row["status"], row["satisfies"], row["meets_definition"]) for row in failed} == {
         ("error", False, None)
     }
     none = answers(Solution(Status.INFEASIBLE, "none"), monkeypatch)
-    assert {(row.proven, row.satisfies, row.objective) for row in none} == {(True, None, None)}
+    assert {(row["proven"], row["satisfies"], row["objective"]) for row in none} == {
+        (True, None, None)
+    }
 
 
 def test_programs_that_a_solver_does_not_take(monkeypatch: pytest.MonkeyPatch) -> None:
     rows = answers(BackendError("too many variables"), monkeypatch)
-    assert {(row.status, row.said, row.proven) for row in rows} == {
+    assert {(row["status"], row["said"], row["proven"]) for row in rows} == {
         (REFUSED, "too many variables", False)
     }
 

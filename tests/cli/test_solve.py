@@ -217,12 +217,13 @@ def test_the_readme_shows_what_is_printed(cli: Cli) -> None:
 def test_compare_goes_on_where_it_stopped(
     cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    from knotopt.document.columns import Row
     from knotopt.tables import comparison
 
     original = comparison.compare
     compared: list[str] = []
 
-    def interrupted(name: str, *arguments: Any, **options: Any) -> comparison.ComparisonRow:
+    def interrupted(name: str, *arguments: Any, **options: Any) -> Row:
         compared.append(name)
         if compared == ["3_1", "4_1"]:
             raise KeyboardInterrupt

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from knotopt.atlas.report.document import Section
 from knotopt.atlas.report.results import Results
+from knotopt.document.model import Section
 
 
 def assumptions_section(results: Results) -> Section:

@@ -7,12 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from knotopt.arrays import FloatArray
-from knotopt.atlas.report.document import NONE, Block, Picture, Section, table
 from knotopt.atlas.report.heuristic import difference
-from knotopt.atlas.report.numbers import whole
-from knotopt.atlas.report.results import Results, Supports
+from knotopt.atlas.report.results import Results
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import OUTER_CUTS
+from knotopt.document.cells import whole
+from knotopt.document.model import NONE, Block, Picture, Section, table_of
+from knotopt.tables.methods import Supports
 
 SHOWN = 10
 
@@ -68,7 +69,6 @@ def failing(results: Results) -> list[Case]:
 
 def cases_section(results: Results) -> Section:
     """Both lists, as tables and pictures."""
-    heads = ("knot", "cut", "baseline", "LCF", "smallest open", "difference")
     blocks: list[Block] = []
     for stem, cases, extra, words, told, none in (
         (
@@ -100,7 +100,7 @@ def cases_section(results: Results) -> Section:
             continue
         rows = [_row(results, case, extra) for case in cases]
         count = f" {len(cases)} of {len(results.knots):,} knots."
-        blocks.append(table((*heads, *extra), rows, words + count))
+        blocks.append(table_of(rows, words + count))
         names = ", ".join(case.name for case in cases)
         blocks.append(Picture(stem, told, f"grid diagrams of {names}", is_wide=True))
     return Section("Where LCF wastes most, and where it fails worst", tuple(blocks))
@@ -128,7 +128,7 @@ def _case(results: Results, knot: int, cut: int) -> Case:
     )
 
 
-def _row(results: Results, case: Case, extra: tuple[str, ...]) -> list[str]:
+def _row(results: Results, case: Case, extra: tuple[str, ...]) -> list[tuple[str, str]]:
     is_open = results.holds("lcf_open")[case.knot]
     lcf = results.cuts("lcf_robots")[case.knot]
     below = difference(results)[case.knot] < 0
@@ -139,11 +139,11 @@ def _row(results: Results, case: Case, extra: tuple[str, ...]) -> list[str]:
         "smallest, best cut": whole(results.best("opening_robots")[case.knot]),
     }
     return [
-        case.name,
-        str(case.cable.cut),
-        str(len(case.cable.path)),
-        str(len(case.lcf) + 2),
-        str(len(case.smallest) + 2),
-        f"{case.difference:+d}".replace("-", "\N{MINUS SIGN}"),
-        *(more[head] for head in extra),
+        ("knot", case.name),
+        ("cut", str(case.cable.cut)),
+        ("baseline", str(len(case.cable.path))),
+        ("LCF", str(len(case.lcf) + 2)),
+        ("smallest open", str(len(case.smallest) + 2)),
+        ("difference", f"{case.difference:+d}".replace("-", "\N{MINUS SIGN}")),
+        *((head, more[head]) for head in extra),
     ]

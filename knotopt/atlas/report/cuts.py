@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from knotopt.atlas.report.document import Picture, Section, Table, table
-from knotopt.atlas.report.numbers import largest, mean
 from knotopt.atlas.report.results import Results
 from knotopt.atlas.report.robots import named_groups
 from knotopt.cable.cut import OUTER_CUTS
+from knotopt.document.cells import largest, mean
+from knotopt.document.model import Picture, Section, Table, table, table_of
 
 
 def cuts_section(results: Results) -> Section:
@@ -30,37 +30,25 @@ def cuts_section(results: Results) -> Section:
 
 def spread_table(results: Results) -> Table:
     """Means on the best, the middle and the worst cut by crossing number."""
-    columns = [c for c in ("lcf_robots", "opening_robots", "span_robots") if c in results.methods]
     rows = []
-    for column in columns:
+    for column in ("lcf_robots", *results.smallest):
         for name, knots in named_groups(results):
             robots = results.cuts(column)[knots]
             spread = robots.max(axis=1) - robots.min(axis=1)
             rows.append(
                 [
-                    results.methods[column],
-                    name,
-                    f"{len(knots):,}",
-                    mean(robots.min(axis=1)),
-                    mean(robots),
-                    mean(robots.max(axis=1)),
-                    mean(spread),
-                    largest(spread),
-                    f"{int((spread == 0).sum()):,}",
+                    ("method", results.methods[column]),
+                    ("crossing number", name),
+                    ("knots", f"{len(knots):,}"),
+                    ("best cut", mean(robots.min(axis=1))),
+                    ("mean cut", mean(robots)),
+                    ("worst cut", mean(robots.max(axis=1))),
+                    ("worst less best", mean(spread)),
+                    ("largest", largest(spread)),
+                    ("knots with none", f"{int((spread == 0).sum()):,}"),
                 ]
             )
-    return table(
-        (
-            "method",
-            "crossing number",
-            "knots",
-            "best cut",
-            "mean cut",
-            "worst cut",
-            "worst less best",
-            "largest",
-            "knots with none",
-        ),
+    return table_of(
         rows,
         "Mean robots on the best, an average and the worst of a knot's eight outer cuts, and the "
         "difference between worst and best: mean, largest, and of how many knots it is zero.",

@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from knotopt.atlas.report.document import NONE, Block, Section, Table, table
 from knotopt.atlas.report.invariants import TORUS, TWIST, Invariants
-from knotopt.atlas.report.numbers import largest, mean, percent, whole
 from knotopt.atlas.report.results import Results
+from knotopt.document.cells import largest, mean, percent, whole
+from knotopt.document.model import NONE, Block, Section, Table, table_of
 
 Members = Sequence[bool | None]
 
@@ -39,22 +39,16 @@ def families_section(results: Results, known: Mapping[str, Invariants]) -> Secti
 
 def families_table(results: Results, known: Mapping[str, Invariants]) -> Table:
     """Sizes and mean robots by family."""
-    rows = [["all", *_cells(results, [True] * len(results.knots))]]
-    for name, members in _families(results, known).items():
-        if True in members:
-            rows.append([name, *_cells(results, members)])
-    return table(
-        (
-            "family",
-            "knots",
-            "of",
-            "crossing number",
-            "arc index",
-            "LCF open",
-            *(f"{words}, best cut" for words in results.methods.values()),
-            "fewest, most",
-        ),
-        rows,
+    families: dict[str, Members] = {
+        "all": [True] * len(results.knots),
+        **_families(results, known),
+    }
+    return table_of(
+        [
+            [("family", name), *_cells(results, members)]
+            for name, members in families.items()
+            if True in members
+        ],
         "Families: knots in them, of how many where it is known, mean crossing number and arc "
         "index, share of outer cuts where LCF's set is open, mean robots on each method's best "
         "outer cut, and the fewest and most robots of a knot's smallest open set (best cut). "
@@ -77,25 +71,16 @@ def alternating_table(results: Results) -> Table:
             if yes.any() and no.any():
                 rows.append(
                     [
-                        f"{what} {value:.0f}",
-                        f"{yes.sum():,}",
-                        f"{no.sum():,}",
-                        mean(fewest[yes]),
-                        mean(fewest[no]),
-                        percent(is_open[yes]),
-                        percent(is_open[no]),
+                        ("knots with", f"{what} {value:.0f}"),
+                        ("alternating", f"{yes.sum():,}"),
+                        ("not", f"{no.sum():,}"),
+                        ("robots, alternating", mean(fewest[yes])),
+                        ("robots, not", mean(fewest[no])),
+                        ("LCF open, alternating", percent(is_open[yes])),
+                        ("LCF open, not", percent(is_open[no])),
                     ]
                 )
-    return table(
-        (
-            "knots with",
-            "alternating",
-            "not",
-            "robots, alternating",
-            "robots, not",
-            "LCF open, alternating",
-            "LCF open, not",
-        ),
+    return table_of(
         rows,
         "Alternating knots against others of the same size: how many, mean robots of the smallest "
         "open set on the best outer cut (`opening`), share of outer cuts where LCF's set is open.",
@@ -113,18 +98,19 @@ def _named_table(results: Results, named: Sequence[int]) -> Table:
     for k in named:
         knot, names = results.knots[k], _named(results, k)
         kinds = [w for w, family in (("torus", TORUS), ("twist", TWIST)) if names & {*family}]
-        arc = NONE if knot.arc_index is None else str(knot.arc_index)
-        robots = [whole(results.best(column)[k]) for column in results.methods]
-        opens = f"{int(results.holds('lcf_open')[k].sum())} of 8"
-        rows.append([knot.knot, ", ".join(kinds), arc, opens, *robots])
-    return table(
-        (
-            "knot",
-            "family",
-            "arc index",
-            "LCF open, cuts",
-            *(f"{words}, best cut" for words in results.methods.values()),
-        ),
+        rows.append(
+            [
+                ("knot", knot.knot),
+                ("family", ", ".join(kinds)),
+                ("arc index", NONE if knot.arc_index is None else str(knot.arc_index)),
+                ("LCF open, cuts", f"{int(results.holds('lcf_open')[k].sum())} of 8"),
+                *(
+                    (f"{words}, best cut", whole(results.best(column)[k]))
+                    for column, words in results.methods.items()
+                ),
+            ]
+        )
+    return table_of(
         rows,
         f"Torus and twist knots: robots on each method's best outer cut ({len(named)} knots).",
     )
@@ -154,22 +140,21 @@ def _families(results: Results, known: Mapping[str, Invariants]) -> dict[str, Me
     }
 
 
-def _cells(results: Results, members: Members) -> list[str]:
+def _cells(results: Results, members: Members) -> list[tuple[str, str]]:
     inside = np.array([member is True for member in members])
     knots = [knot for knot, member in zip(results.knots, inside, strict=True) if member]
     fewest = results.best("opening_robots")[inside]
-
-    def average(values: list[int | None]) -> str:
-        return mean(np.array(values, dtype=float), 1)
-
     return [
-        f"{int(inside.sum()):,}",
-        f"{sum(member is not None for member in members):,}",
-        average([knot.crossing_number for knot in knots]),
-        average([knot.arc_index for knot in knots]),
-        percent(results.holds("lcf_open")[inside]),
-        *(mean(results.best(column)[inside]) for column in results.methods),
-        f"{whole(fewest.min())}, {largest(fewest)}",
+        ("knots", f"{int(inside.sum()):,}"),
+        ("of", f"{sum(member is not None for member in members):,}"),
+        ("crossing number", mean([knot.crossing_number for knot in knots], 1)),
+        ("arc index", mean([knot.arc_index for knot in knots], 1)),
+        ("LCF open", percent(results.holds("lcf_open")[inside])),
+        *(
+            (f"{words}, best cut", mean(results.best(column)[inside]))
+            for column, words in results.methods.items()
+        ),
+        ("fewest, most", f"{whole(fewest.min())}, {largest(fewest)}"),
     ]
 
 

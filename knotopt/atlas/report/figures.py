@@ -19,6 +19,7 @@ from knotopt.atlas.report.robots import named_groups
 from knotopt.plot.figures import PANEL
 
 BLUE, ORANGE, GREEN, GREY = "#0072B2", "#D55E00", "#009E73", "#B8B8B8"
+SMALLEST_COLOURS = (BLUE, GREEN, "#CC79A7", "#E69F00")  # of the formulations
 CLASSES = {  # colours differ in lightness, hatches tell them apart in print
     "open, smallest": (GREEN, ""),
     "open, with more": (BLUE, ""),
@@ -78,10 +79,9 @@ def cuts_figure(results: Results) -> Figure:
     """Knots by what the worst cut costs them."""
     figure = Figure(figsize=(PANEL, 0.8 * PANEL), layout="constrained")
     axes = figure.subplots()
-    styles = {"opening_robots": BLUE, "span_robots": GREEN, "lcf_robots": ORANGE}
-    shown = {c: colour for c, colour in styles.items() if c in results.methods}
+    shown = [*zip(results.smallest, SMALLEST_COLOURS, strict=False), ("lcf_robots", ORANGE)]
     width = 0.84 / len(shown)
-    for index, (column, colour) in enumerate(shown.items()):
+    for index, (column, colour) in enumerate(shown):
         robots = results.cuts(column)
         counts = Counter((robots.max(axis=1) - robots.min(axis=1)).astype(int).tolist())
         places = np.array(sorted(counts))

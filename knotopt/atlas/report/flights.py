@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from statistics import median
 
-from knotopt.atlas.report.document import NONE, Block, Section, Table, table
-from knotopt.atlas.report.numbers import percent
-from knotopt.atlas.report.results import Results, Row
+from knotopt.atlas.report.results import Results
 from knotopt.atlas.report.robots import named_groups
+from knotopt.document.cells import percent
+from knotopt.document.columns import Row
+from knotopt.document.model import NONE, Block, Section, Table, table
 from knotopt.sim.trials import wilson_interval
+from knotopt.tables.methods import LCF, USUAL_PROGRAMS
 
-SETS = {"lcf": "LCF", "opening": "`opening`", "span": "`span`"}
-MODELS = {"opening_open": "`opening`", "span_open": "`span`"}
+SMALLEST = {method.key: f"`{method.head}`" for method in USUAL_PROGRAMS}
+SETS = {LCF.key: LCF.head, **SMALLEST}
+MODELS = {f"{key}_open": words for key, words in SMALLEST.items()}
 OUTCOMES = ("wrong knot", "stuck", "unsound")
 QUADRANTS = {
     "open, tied": (True, True),
@@ -88,7 +91,7 @@ def agreement_table(results: Results) -> Table:
             flown = [
                 (row[column], row["tied"])
                 for row in results.flights
-                if row["supports"] == kind and row["planned"] and row[column] is not None
+                if row["supports"] == kind and row["planned"] and row.get(column) is not None
             ]
             if flown:
                 counts = [flown.count((is_open, tied)) for is_open, tied in QUADRANTS.values()]

@@ -9,10 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from knotopt.atlas.report.cases import Case
-from knotopt.atlas.report.results import Supports
 from knotopt.cable.cable import Cable
 from knotopt.plot.cable import draw_cable, draw_robots
 from knotopt.plot.figures import LEGEND, PANEL
+from knotopt.tables.methods import Supports
 from knotopt.verify.opening import check_opening, threading_cells
 from knotopt.verify.regions import define_regions
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 
 from knotopt.arrays import BoolArray, FloatArray, IntArray
-from knotopt.atlas.report.document import Block, Picture, Section, Table, table
-from knotopt.atlas.report.numbers import largest, mean, percent
 from knotopt.atlas.report.results import Results
 from knotopt.atlas.report.robots import named_groups
+from knotopt.document.cells import largest, mean, percent
+from knotopt.document.model import Block, Picture, Section, Table, table_of
+from knotopt.tables.methods import HEURISTICS, JUDGES
 
 
 def heuristic_section(results: Results) -> Section:
@@ -54,31 +57,21 @@ def class_table(results: Results) -> Table:
     sorted_out, less = classes(results), difference(results)
     is_open, below = results.holds("lcf_open"), sorted_out["fewer than any open"]
 
-    def cells(knots: IntArray) -> list[str]:
+    def cells(knots: IntArray) -> list[tuple[str, str]]:
         excess = less[knots][is_open[knots]]
         deficit = -less[knots][below[knots]]
         return [
-            f"{8 * len(knots):,}",
-            percent(is_open[knots]),
-            *(percent(held[knots]) for held in sorted_out.values()),
-            mean(excess),
-            largest(excess),
-            mean(deficit),
-            largest(deficit),
+            ("cuts", f"{8 * len(knots):,}"),
+            ("open", percent(is_open[knots])),
+            *((name, percent(held[knots])) for name, held in sorted_out.items()),
+            ("excess, mean", mean(excess)),
+            ("largest", largest(excess)),
+            ("deficit, mean", mean(deficit)),
+            ("largest", largest(deficit)),
         ]
 
-    return table(
-        [
-            "crossing number",
-            "cuts",
-            "open",
-            *sorted_out,
-            "excess, mean",
-            "largest",
-            "deficit, mean",
-            "largest",
-        ],
-        [[name, *cells(knots)] for name, knots in named_groups(results)],
+    return table_of(
+        [[("crossing number", name), *cells(knots)] for name, knots in named_groups(results)],
         "LCF's set on the outer cuts, by `opening` with threading by turning points. Excess: "
         "robots above the smallest open set of the cut, over the cuts where LCF's set is open. "
         "Deficit: robots below it, over the cuts of the last class.",
@@ -88,39 +81,23 @@ def class_table(results: Results) -> Table:
 def variants_table(results: Results) -> Table:
     """LCF and its layered set, in both threading modes."""
     rows = []
-    for words, column, suffix, smallest in (
-        ("LCF, turning-point", "lcf", "", "opening_robots"),
-        ("LCF, over-under", "lcf", "_over_under", "over_under_robots"),
-        ("layered, turning-point", "layered", "", "opening_robots"),
-        ("layered, over-under", "layered", "_over_under", "over_under_robots"),
-    ):
-        is_open = results.holds(f"{column}_open{suffix}")
-        less = results.cuts(f"{column}_robots") - results.cuts(smallest)
+    for method, (judge, suffix) in product(HEURISTICS, JUDGES.items()):
+        is_open = results.holds(f"{method.key}_open{suffix}")
+        less = results.cuts(f"{method.key}_robots") - results.cuts(f"{judge.key}_robots")
         rows.append(
             [
-                words,
-                f"{is_open.size:,}",
-                percent(is_open),
-                percent(is_open & (less == 0)),
-                mean(less[is_open]),
-                largest(less[is_open]),
-                percent(less < 0),
-                mean(-less[less < 0]),
-                largest(-less[less < 0]),
+                ("set, threading", f"{method.head}, {judge.threading}"),
+                ("cuts", f"{is_open.size:,}"),
+                ("open", percent(is_open)),
+                ("open, smallest", percent(is_open & (less == 0))),
+                ("excess, mean", mean(less[is_open])),
+                ("largest", largest(less[is_open])),
+                ("fewer than any open", percent(less < 0)),
+                ("deficit, mean", mean(-less[less < 0])),
+                ("largest", largest(-less[less < 0])),
             ]
         )
-    return table(
-        (
-            "set, threading",
-            "cuts",
-            "open",
-            "open, smallest",
-            "excess, mean",
-            "largest",
-            "fewer than any open",
-            "deficit, mean",
-            "largest",
-        ),
+    return table_of(
         rows,
         "LCF and its layered variant, each judged in both threading modes against the smallest "
         "open set of the same cut and mode.",

@@ -8,10 +8,10 @@ import numpy as np
 from scipy.stats import rankdata
 
 from knotopt.arrays import FloatArray
-from knotopt.atlas.report.document import Block, Picture, Section, Table, table
 from knotopt.atlas.report.invariants import Invariants
-from knotopt.atlas.report.numbers import signed
 from knotopt.atlas.report.results import Results
+from knotopt.document.cells import signed
+from knotopt.document.model import Block, Picture, Section, Table, table_of
 
 ARC, CROSSINGS = "arc index", "crossing number"
 _MEANING = (
@@ -28,8 +28,7 @@ _MEANING = (
 def relations_section(results: Results, known: Mapping[str, Invariants]) -> Section:
     """Rank correlations, plain and with what a grid's size alone explains taken out."""
     columns = invariant_columns(results, known)
-    correlated = [c for c in ("opening_robots", "span_robots") if c in results.methods]
-    tables = [correlation_table(results, columns, robots) for robots in correlated]
+    tables = [correlation_table(results, columns, robots) for robots in results.smallest]
     blocks: list[Block] = [each for each in tables if each.rows]
     blocks.insert(0, _MEANING if blocks else "There are too few knots for rank correlations.")
     if not known:
@@ -72,37 +71,24 @@ def invariant_columns(results: Results, known: Mapping[str, Invariants]) -> dict
 def correlation_table(results: Results, columns: Mapping[str, FloatArray], robots: str) -> Table:
     """Correlations of every invariant that is known of three knots or more."""
     fewest = results.best(robots)
-    arc, crossings = columns[ARC], columns[CROSSINGS]
     rows = []
+    given = {
+        "rank correlation": (),
+        f"given {ARC}": (ARC,),
+        f"given {CROSSINGS}": (CROSSINGS,),
+        "given both": (ARC, CROSSINGS),
+    }
     for name, values in columns.items():
         count = int(np.sum(~np.isnan(values + fewest)))
         if count < 3:
             continue
-        rows.append(
-            [
-                name,
-                f"{count:,}",
-                signed(partial_spearman(values, fewest)),
-                signed(np.nan if name == ARC else partial_spearman(values, fewest, arc)),
-                signed(
-                    np.nan if name == CROSSINGS else partial_spearman(values, fewest, crossings)
-                ),
-                signed(
-                    np.nan
-                    if name in (ARC, CROSSINGS)
-                    else partial_spearman(values, fewest, arc, crossings)
-                ),
-            ]
-        )
-    return table(
-        (
-            "invariant",
-            "knots",
-            "rank correlation",
-            f"given {ARC}",
-            f"given {CROSSINGS}",
-            "given both",
-        ),
+        row = [("invariant", name), ("knots", f"{count:,}")]
+        for head, fixed in given.items():
+            others = [columns[each] for each in fixed]
+            value = np.nan if name in fixed else partial_spearman(values, fewest, *others)
+            row.append((head, signed(value)))
+        rows.append(row)
+    return table_of(
         rows,
         f"Rank correlation with the smallest number of robots on the best outer cut "
         f"({results.methods[robots]}), over the knots of which the invariant is known; knots known "

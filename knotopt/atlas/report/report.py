@@ -9,9 +9,9 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from knotopt.atlas.report.assumptions import assumptions_section
+from knotopt.atlas.report.atlas_csv import atlas_csv
 from knotopt.atlas.report.cases import cases_section, failing, wasteful
 from knotopt.atlas.report.cuts import cuts_section
-from knotopt.atlas.report.document import Document
 from knotopt.atlas.report.families import families_section
 from knotopt.atlas.report.figures import (
     cuts_figure,
@@ -23,15 +23,15 @@ from knotopt.atlas.report.flights import flights_section
 from knotopt.atlas.report.gallery import gallery_figure
 from knotopt.atlas.report.heuristic import heuristic_section
 from knotopt.atlas.report.invariants import Invariants, invariants, knotinfo_version
-from knotopt.atlas.report.latex import latex
-from knotopt.atlas.report.listing import listing
-from knotopt.atlas.report.markdown import markdown
-from knotopt.atlas.report.page import page
 from knotopt.atlas.report.relations import relations_section
 from knotopt.atlas.report.results import Results
 from knotopt.atlas.report.robots import robots_section
 from knotopt.atlas.report.solvers import PROFILE, profile_figure, solvers_section
 from knotopt.atlas.report.times import paths_section, times_section
+from knotopt.document.html import html
+from knotopt.document.latex import latex
+from knotopt.document.markdown import markdown
+from knotopt.document.model import Document
 from knotopt.plot.figures import figure_bytes
 
 MARK = "report.md"
@@ -50,8 +50,8 @@ def report_files(results: Results) -> dict[str, str | bytes]:
     return {
         MARK: markdown(document),
         "report.tex": latex(document),
-        "report.html": page(document, as_svg),
-        "atlas.csv": listing(results),
+        "report.html": html(document, as_svg),
+        "atlas.csv": atlas_csv(results),
         **{f"{name}.png": figure_bytes(figure, "png") for name, figure in figures.items()},
         **{f"{name}.pdf": figure_bytes(figure, "pdf") for name, figure in figures.items()},
     }

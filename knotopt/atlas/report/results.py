@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -25,18 +24,14 @@ from knotopt.atlas.schema import (
 )
 from knotopt.atlas.store import read_manifest, read_rows
 from knotopt.cable.cut import OUTER_CUTS
+from knotopt.document.columns import Row
 from knotopt.errors import OutputError
-
-Supports = tuple[int, ...]
-Row = dict[str, Any]
+from knotopt.tables.methods import HEURISTICS, PROGRAMS, USUAL_PROGRAMS, Supports
 
 METHODS = {
     "baseline": "baseline",
-    "lcf_robots": "LCF",
-    "layered_robots": "layered",
-    "opening_robots": "`opening`",
-    "over_under_robots": "over-under",
-    "span_robots": "`span`",
+    **{f"{method.key}_robots": method.head for method in HEURISTICS},
+    **{f"{p.key}_robots": f"`{p.head}`" if p.is_usual else p.head for p in PROGRAMS},
 }
 """Columns of robots, and what they are called."""
 
@@ -105,8 +100,14 @@ class Results:
         return {
             column: words
             for column, words in METHODS.items()
-            if not np.isnan(self.cuts(column)).any()
+            if column in self.rows.column_names and not np.isnan(self.cuts(column)).any()
         }
+
+    @property
+    def smallest(self) -> list[str]:
+        """Columns of robots of one smallest set a formulation, those that have all numbers."""
+        usual = (f"{method.key}_robots" for method in USUAL_PROGRAMS)
+        return [column for column in usual if column in self.methods]
 
     @cached_property
     def proven(self) -> BoolArray:
@@ -174,7 +175,7 @@ def read_results(folder: Path) -> Results:
     return Results(manifest, knots, rows, times, requested)
 
 
-def _hashable(row: dict[str, Any]) -> dict[str, Any]:
+def _hashable(row: Row) -> Row:
     known = {column.name for column in fields(KnotRow)}
     return {
         name: tuple(value) if isinstance(value, list) else value

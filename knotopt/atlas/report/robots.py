@@ -7,16 +7,16 @@ from collections import Counter
 import numpy as np
 
 from knotopt.arrays import IntArray
-from knotopt.atlas.report.document import Block, Picture, Section, Table, table
-from knotopt.atlas.report.numbers import mean
 from knotopt.atlas.report.results import Results
+from knotopt.document.cells import mean
+from knotopt.document.model import Block, Picture, Section, Table, table
 
 
 def robots_section(results: Results) -> Section:
     """Means of every method, and how many knots need how many robots."""
     blocks: list[Block] = [
         means_table(results),
-        distribution_table(results),
+        *(distribution_table(results, column) for column in results.smallest),
         Picture(
             "robots",
             "Smallest number of robots (`opening`, turning-point) by crossing number: left, knots "
@@ -25,8 +25,6 @@ def robots_section(results: Results) -> Section:
             is_wide=True,
         ),
     ]
-    if "span_robots" in results.methods:
-        blocks.insert(2, distribution_table(results, "span_robots"))
     return Section("Robots by crossing number", tuple(blocks))
 
 
@@ -50,7 +48,7 @@ def means_table(results: Results) -> Table:
     )
 
 
-def distribution_table(results: Results, column: str = "opening_robots") -> Table:
+def distribution_table(results: Results, column: str) -> Table:
     """How many knots need how many robots on their best outer cut."""
     fewest = results.best(column)
     known = fewest[~np.isnan(fewest)]

@@ -4,18 +4,25 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
+from collections.abc import Callable
 from statistics import median
 
 from matplotlib.figure import Figure
 
-from knotopt.atlas.report.document import NONE, Picture, Section, Table, table
 from knotopt.atlas.report.performance import SHIFT, SOLVERS, draw_profile, shifted_geometric_mean
-from knotopt.atlas.report.results import Results, Row
+from knotopt.atlas.report.results import Results
 from knotopt.cable.cut import OUTER_CUTS
+from knotopt.document.columns import Row
+from knotopt.document.model import NONE, Picture, Section, Table, table_of
 from knotopt.plot.figures import PANEL
 
 PROFILE = "solvers"
 """The name of the figure."""
+STATISTICS: dict[str, Callable[[list[float]], float]] = {
+    "mean ms": shifted_geometric_mean,
+    "median ms": median,
+    "largest ms": max,
+}
 Program = tuple[int, str, str]
 """Number of the knot, cut and formulation."""
 
@@ -59,34 +66,19 @@ def solvers_table(results: Results) -> Table:
             times = [row["seconds"] for row in tried]
             rows.append(
                 [
-                    f"`{formulation}`",
-                    SOLVERS[solver][0],
-                    f"{len(tried):,}",
-                    f"{sum(row['objective'] is not None for row in tried):,}",
-                    f"{sum(row['proven'] for row in tried):,}",
-                    f"{sum(is_wrong for _, is_wrong in kept):,}",
+                    ("formulation", f"`{formulation}`"),
+                    ("solver", SOLVERS[solver][0]),
+                    ("programs", f"{len(tried):,}"),
+                    ("solved", f"{sum(row['objective'] is not None for row in tried):,}"),
+                    ("proven", f"{sum(row['proven'] for row in tried):,}"),
+                    ("wrong", f"{sum(is_wrong for _, is_wrong in kept):,}"),
                     *(
-                        f"{1e3 * each:.1f}" if times else NONE
-                        for each in (
-                            shifted_geometric_mean(times) if times else 0,
-                            median(times) if times else 0,
-                            max(times, default=0),
-                        )
+                        (head, f"{1e3 * of(times):.1f}" if times else NONE)
+                        for head, of in STATISTICS.items()
                     ),
                 ]
             )
-    return table(
-        (
-            "formulation",
-            "solver",
-            "programs",
-            "solved",
-            "proven",
-            "wrong",
-            "mean ms",
-            "median ms",
-            "largest ms",
-        ),
+    return table_of(
         rows,
         "Programs that the solver takes, those to which it gave a set, and those of which it says "
         "that the set is smallest. Wrong: the set breaks a row or the definition, the solver "

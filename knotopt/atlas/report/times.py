@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from knotopt.atlas.report.document import Section, Table, table
-from knotopt.atlas.report.numbers import median, percent
 from knotopt.atlas.report.results import Results
+from knotopt.document.cells import percent
+from knotopt.document.model import Section, Table, table, table_of
+from knotopt.tables.comparison import path_medians
+from knotopt.tables.methods import PROGRAMS
 
 STEPS = {
     "lcf_seconds": "LCF and its layered set",
-    "opening_seconds": "`opening`, turning-point",
-    "over_under_seconds": "`opening`, over-under",
-    "span_seconds": "`span`",
+    **{
+        f"{method.key}_seconds": f"`{method.formulation}`, {method.threading}"
+        for method in PROGRAMS
+    },
     "paths_seconds": "four paths and their checks",
     "check_seconds": "checks by the definitions",
 }
@@ -42,6 +45,8 @@ def times_table(results: Results) -> Table:
     """Median, 90 % and largest of every step."""
     rows = []
     for column, words in STEPS.items():
+        if column not in results.times.column_names:
+            continue
         seconds = results.seconds(column)
         seconds = seconds[~np.isnan(seconds)]
         if seconds.size:
@@ -71,35 +76,21 @@ def paths_section(results: Results) -> Section | None:
     for supports in ("lcf", "opening"):
         for method in ("relaxation", "nlp"):
             paths = [p for p in results.paths if (p["supports"], p["method"]) == (supports, method)]
-            measures = ("stretch", "smallest_radius", "clearance", "opening", "gap")
             rows.append(
                 [
-                    supports,
-                    method,
-                    f"{len(paths):,}",
-                    percent([path["status"] in ("solved", "converged") for path in paths]),
-                    percent([path["same_diagram"] for path in paths]),
-                    percent([path["same_knot"] for path in paths]),
-                    *(median(_column(paths, name), 3) for name in measures),
+                    ("supports", supports),
+                    ("method", method),
+                    ("paths", f"{len(paths):,}"),
+                    ("done", percent([p["status"] in ("solved", "converged") for p in paths])),
+                    ("same diagram", percent([path["same_diagram"] for path in paths])),
+                    ("same knot", percent([path["same_knot"] for path in paths])),
+                    *path_medians(paths),
                 ]
             )
     return Section(
         "Cable paths",
         (
-            table(
-                (
-                    "supports",
-                    "method",
-                    "paths",
-                    "done",
-                    "same diagram",
-                    "same knot",
-                    "/ taut",
-                    "radius",
-                    "clearance",
-                    "opening",
-                    "gap",
-                ),
+            table_of(
                 rows,
                 "Paths of the relaxation and of the program on LCF's set and on the smallest open "
                 "one: shares of paths, then medians [grid steps] where there is something to "
@@ -108,7 +99,3 @@ def paths_section(results: Results) -> Section | None:
             ),
         ),
     )
-
-
-def _column(paths: list[dict[str, float | None]], name: str) -> list[float]:
-    return [np.nan if path[name] is None else float(path[name] or 0) for path in paths]

@@ -1,17 +1,16 @@
-"""A report as one HTML page that needs nothing else."""
+"""A document as one HTML page that needs nothing else."""
 
 from __future__ import annotations
 
 import base64
-import re
 from collections.abc import Mapping
 from html import escape
 
-from knotopt.atlas.report.document import Block, Document, Picture, Table, pieces
-from knotopt.viewer.parts import digest, part
+from knotopt.document.model import Block, Document, Picture, Table, pieces
+from knotopt.document.pages import filled, page, part
 
 
-def page(document: Document, pictures: Mapping[str, bytes]) -> str:
+def html(document: Document, pictures: Mapping[str, bytes]) -> str:
     """The page, to be written as UTF-8.
 
     Parameters
@@ -25,7 +24,6 @@ def page(document: Document, pictures: Mapping[str, bytes]) -> str:
     str
         HTML that loads nothing and runs nothing.
     """
-    style = part("page.css") + "\n" + part("atlas.css")
     facts = "".join(
         f"<div><dt>{_text(name)}</dt><dd>{_text(value)}</dd></div>"
         for name, value in document.facts
@@ -44,14 +42,13 @@ def page(document: Document, pictures: Mapping[str, bytes]) -> str:
         for number, section in enumerate(document.sections, 1)
     )
     parts = {
-        "policy": f"default-src 'none'; img-src data:; style-src '{digest(style)}'",
         "title": escape(document.title),
         "facts": facts,
         "contents": contents,
         "sections": sections,
-        "style": style,
     }
-    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], part("atlas.html")) + "\n"
+    body = filled(part(__package__, "document.html"), parts)
+    return page(document.title, body, part(__package__, "document.css")) + "\n"
 
 
 def _block(block: Block, pictures: Mapping[str, bytes], name: str) -> str:
@@ -72,7 +69,7 @@ def _block(block: Block, pictures: Mapping[str, bytes], name: str) -> str:
 
 
 def _table(block: Table, name: str) -> str:
-    kinds = [' class="number"' if number else "" for number in block.is_number]
+    kinds = [' class="number"' if side == "r" else "" for side in block.sides]
     head = "".join(
         f'<th scope="col"{kind}>{_text(text)}</th>'
         for kind, text in zip(kinds, block.heads, strict=True)

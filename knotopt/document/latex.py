@@ -1,8 +1,11 @@
-"""A report as LaTeX: an article with packages that every distribution has."""
+"""A document as LaTeX: an article with packages that every distribution has, or its tables."""
 
 from __future__ import annotations
 
-from knotopt.atlas.report.document import Block, Document, Picture, Table, pieces
+import re
+from collections.abc import Sequence
+
+from knotopt.document.model import Block, Document, Picture, Table, pieces
 
 _HEAD = r"""\documentclass[a4paper,10pt]{article}
 \usepackage[utf8]{inputenc}
@@ -11,11 +14,13 @@ _HEAD = r"""\documentclass[a4paper,10pt]{article}
 """
 _SPECIAL = str.maketrans(
     {
+        "\0": "{}",  # no text has it: see `_escaped`
         "\\": r"\textbackslash{}",
         "{": r"\{",
         "}": r"\}",
         "~": r"\textasciitilde{}",
         "^": r"\textasciicircum{}",
+        "`": r"\textasciigrave{}",
         '"': "''",
         "<": r"\textless{}",
         ">": r"\textgreater{}",
@@ -30,19 +35,23 @@ _WORDY = 14  # characters of a cell from which a column's lines are broken
 
 
 def latex(document: Document) -> str:
-    """The report's text; pictures are .pdf files beside it."""
+    """The document as an article; pictures are .pdf files beside it."""
     parts = [
         f"{_HEAD}\\title{{{_text(document.title)}}}\n\\author{{}}\n\\date{{}}",
         "\\begin{document}\n\\maketitle",
-        "\\begin{itemize}",
-        *(f"\\item {_text(name)}: {_text(value)}" for name, value in document.facts),
-        "\\end{itemize}",
+        *_items([f"{name}: {value}" for name, value in document.facts]),
     ]
     for section in document.sections:
-        parts += [f"\n\\section{{{_text(section.title)}}}"]
+        parts += [f"\n\\section{{{_text(section.title)}}}"] if section.title else []
         for block in section.blocks:
             parts += ["", *_block(block)]
     return "\n".join([*parts, "\\end{document}", ""])
+
+
+def latex_tables(document: Document) -> str:
+    """The document's tables alone, without captions, for an article of the reader's own."""
+    tables = ("\n".join([*_tabular(table), ""]) for table in document.tables)
+    return "\n".join(["% needs \\usepackage{booktabs}", *tables])
 
 
 def _block(block: Block) -> list[str]:
@@ -50,8 +59,7 @@ def _block(block: Block) -> list[str]:
         case str():
             return [_text(block)]
         case tuple():
-            items = (f"\\item {_text(item)}" for item in block)
-            return ["\\begin{itemize}", *items, "\\end{itemize}"]
+            return _items(block)
         case Picture():
             return [
                 "\\begin{figure}[htbp]\\centering",
@@ -64,22 +72,32 @@ def _block(block: Block) -> list[str]:
             return _table(block)
 
 
+def _items(texts: Sequence[str]) -> list[str]:
+    lines = (f"\\item {_text(text)}" for text in texts)
+    return ["\\begin{itemize}", *lines, "\\end{itemize}"] if texts else []
+
+
 def _table(block: Table) -> list[str]:
-    # Heads are longer than numbers: each word of them may stand on a line of its own.
-    heads = [_head(head) for head in block.heads]
-    kinds = "".join("r" if number else "l" for number in block.is_number)
     return [
         "\\begin{table}[htbp]\\centering\\footnotesize\\setlength{\\tabcolsep}{4pt}",
         f"\\caption{{{_text(block.caption)}}}",
         "\\resizebox{\\ifdim\\width>\\linewidth\\linewidth\\else\\width\\fi}{!}{%",
-        f"\\begin{{tabular}}{{{kinds}}}",
+        *_tabular(block)[:-1],
+        "\\end{tabular}}",
+        "\\end{table}",
+    ]
+
+
+def _tabular(block: Table) -> list[str]:
+    return [
+        f"\\begin{{tabular}}{{{block.sides}}}",
         "\\toprule",
-        _row(heads),
+        # Heads are longer than numbers: each word of them may stand on a line of its own.
+        _row([_head(head) for head in block.heads]),
         "\\midrule",
         *(_row([_text(cell) for cell in row]) for row in block.rows),
         "\\bottomrule",
-        "\\end{tabular}}",
-        "\\end{table}",
+        "\\end{tabular}",
     ]
 
 
@@ -96,13 +114,16 @@ def _row(cells: list[str]) -> str:
 
 
 def _text(text: str) -> str:
-    return "".join(
+    written = "".join(
         # A path may be broken where a line ends.
         f"\\texttt{{{_escaped(piece).replace('/', '/' + BREAK)}}}" if is_code else _escaped(piece)
         for is_code, piece in pieces(text)
     )
+    # After the end of a row, or an \item, these would be part of the command.
+    return "{}" + written if written.startswith(("[", "*")) else written
 
 
 def _escaped(text: str) -> str:
+    apart = re.sub("-(?=-)", "-\0", text)  # hyphens that stay hyphens
     # Names of the user's files may have letters that the fonts lack.
-    return text.translate(_SPECIAL).encode("ascii", "replace").decode("ascii")
+    return apart.translate(_SPECIAL).encode("ascii", "replace").decode("ascii")
