@@ -78,7 +78,7 @@ def test_the_smallest_set_that_ties_by_exhaustive_search() -> None:
     assert found.smaller_cut_off == len(smaller)
     assert not any(map(ties, failed))
     assert list(map(len, failed)) == sorted(map(len, failed))
-    assert flights.flown == [("L+", supports) for supports in (*cut_off, found.result.supports)]
+    assert flights.flown == [("L+", supports) for supports in (*failed, found.result.supports)]
     assert sum(found.cut_off_by_robots.values()) == len(failed)
     assert found.flight is not None and found.rehearsal is None
     assert len(found.flight.trials) == found.trials == 3 and found.noise == 0.01
