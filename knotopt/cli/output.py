@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Iterable, Iterator, Sequence
+from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
@@ -15,6 +16,15 @@ if TYPE_CHECKING:
     from knotopt.catalogue.lookup import NamedDiagram
 
 Item = TypeVar("Item")
+
+
+class PictureFormat(StrEnum):
+    """Of figures whose names a command chooses."""
+
+    PNG = "png"
+    PDF = "pdf"
+    SVG = "svg"
+
 
 KnotArgument = Annotated[
     str,
@@ -36,6 +46,7 @@ PlotOption = Annotated[
     Path | None,
     typer.Option("--plot", metavar="FILE", help="Draw a picture: .png, .pdf or .svg."),
 ]
+FormatOption = Annotated[PictureFormat, typer.Option("--format", help="Of the figures.")]
 LayeredOption = Annotated[
     bool,
     typer.Option("--layered", help="Also drop supports that lie inside another active region."),

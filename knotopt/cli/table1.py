@@ -8,7 +8,16 @@ from typing import Annotated
 
 import typer
 
-from knotopt.cli.output import JsonOption, print_json, print_note, print_table, print_written, track
+from knotopt.cli.output import (
+    FormatOption,
+    JsonOption,
+    PictureFormat,
+    print_json,
+    print_note,
+    print_table,
+    print_written,
+    track,
+)
 
 
 def table1(
@@ -23,6 +32,7 @@ def table1(
             "row there.",
         ),
     ] = None,
+    picture_format: FormatOption = PictureFormat.PNG,
     as_json: JsonOption = False,
 ) -> None:
     """Recompute the paper's Table I: robots before and after LCF, the smallest sets, the paths.
@@ -76,17 +86,18 @@ def table1(
                 f"{name}_path": path_figure([result.optimised], f"{title}, LCF's supports"),
             }
             for stem, figure in figures.items():
-                save_figure(figure, out / "figures" / f"{stem}.png")
-                written.append(out / "figures" / f"{stem}.png")
+                file = out / "figures" / f"{stem}.{picture_format}"
+                save_figure(figure, file)
+                written.append(file)
         tables = {
             "table1.csv": table1_csv(rows),
             "table1.md": table1_markdown(rows),
             "table1_paths.csv": paths_csv(results),
             "table1_paths.md": paths_markdown(results),
         }
-        for file, text in tables.items():
-            write_atomically(out / file, text)
-            written.append(out / file)
+        for name, text in tables.items():
+            write_atomically(out / name, text)
+            written.append(out / name)
     if as_json:
         print_json(
             [
