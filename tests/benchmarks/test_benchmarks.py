@@ -15,6 +15,7 @@ from benchmarks import __main__ as harness
 from benchmarks import headlines, results
 from benchmarks.compare import ROOT, compare, fastest
 from benchmarks.plots import lcf
+from benchmarks.plots.versions import write_parts
 from benchmarks.registry import BENCHMARKS, Benchmark, register
 from knotopt.errors import FileFormatError, OutputError
 
@@ -93,7 +94,7 @@ def test_the_figures_of_each_version_are_kept(
     assert "left out: paths, no results" in told.output
     assert "left out: solvers, of 0.0.1" in told.output
     assert versions.read_bytes() != once and len(records(versions)) == 2
-    page = "\n".join(versions.write_parts()[0])
+    page = "\n".join(write_parts()[0])
     assert f"| benchmark | figure | 0.0.1 | {version} |" in page
     assert "| old | time [s] | 12.5 (3) | - |" in page
     assert "| CP-SAT" not in page and f"- {version}, `startup`" in page
