@@ -111,8 +111,7 @@ def use(python: str, wheel: Path, folder: Path, *, bare: bool) -> None:
     """Install the wheel into a new environment and run its commands there."""
     venv = folder / "venv"
     run(python, "-m", "venv", "--clear", venv)
-    elsewhere = folder / "elsewhere"
-    elsewhere.mkdir(exist_ok=True)
+    elsewhere = tempfile.mkdtemp(dir=folder)
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
 
     def there(program: str, *arguments: str) -> None:
