@@ -38,10 +38,11 @@ from benchmarks import (  # noqa: F401 -- they register themselves
 )
 from benchmarks.compare import compare
 from benchmarks.registry import BENCHMARKS, Benchmark, Case
+from benchmarks.results import RESULTS
+from knotopt.cli.options import FormatOption, PictureFormat
 from knotopt.errors import KnotoptError
 from knotopt.files import resumable_lines
 
-RESULTS = Path(__file__).parent / "results"
 CPUINFO = Path("/proc/cpuinfo")  # of Linux, where Python does not know the processor's model
 app = typer.Typer(help=__doc__, no_args_is_help=True, pretty_exceptions_enable=False)
 
@@ -96,11 +97,11 @@ def compare_revisions(
 
 
 @app.command()
-def plot() -> None:
+def plot(picture_format: FormatOption = PictureFormat.PNG) -> None:
     """Write pages, figures and the table of versions from the results, beside them."""
-    from benchmarks.plot import main
+    from benchmarks.plots.pages import write_pages
 
-    main()
+    write_pages(f".{picture_format}")
 
 
 @app.command()

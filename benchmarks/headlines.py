@@ -1,31 +1,26 @@
 """The figures that a version is judged by, kept version by version.
 
-`record` takes them from the results into one line of `versions.jsonl`; the page `versions.md` sets
-the versions side by side.
+`record` takes them from the results into one line of `versions.jsonl`.
 """
 
 from __future__ import annotations
 
 import importlib.metadata
 import json
-from collections import defaultdict
 from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from statistics import mean, median
 from typing import Any
 
-from matplotlib.figure import Figure
-
-from benchmarks import plot
+from benchmarks import results
 from benchmarks.physics import KNOT_METHODS, METHODS, OPTIMAL_METHOD, SEEDS
-from benchmarks.plot_paths import SMALL
+from benchmarks.results import SMALL, SPEED_AT, Row
 from knotopt.atlas.report.performance import shifted_geometric_mean
 from knotopt.errors import FileFormatError
 from knotopt.files import write_atomically
 
 FILE = "versions.jsonl"
-Row = dict[str, Any]
 Values = Callable[[Row], Iterable[float]]
 Facts = dict[str, Any]
 
@@ -125,8 +120,8 @@ HEADLINES = (
     Headline("startup", "`knotopt table1` [s]", _where("seconds", arguments=["table1"])),
     Headline(
         "lcf_catalogue",
-        f"LCF at N = {plot.SPEED_AT}, a cut [ms, median]",
-        _where("ms_per_cut", grid_size=plot.SPEED_AT),
+        f"LCF at N = {SPEED_AT}, a cut [ms, median]",
+        _where("ms_per_cut", grid_size=SPEED_AT),
     ),
     Headline("lcf_growth", "LCF at N = 100 [s, worst]", _where("seconds", size=100), max),
     Headline("lcf_growth", "LCF at N = 100 [MiB, worst]", _where("mebibytes", size=100), max),
@@ -239,7 +234,7 @@ def record() -> tuple[Figures, dict[str, str]]:
         The file cannot be written.
     """
     version = importlib.metadata.version("knotopt")
-    path = plot.RESULTS / FILE
+    path = results.RESULTS / FILE
     kept = {line.version: line for line in read_versions(path)}
     figures: list[tuple[str, str, float, int]] = []
     machines: dict[str, Facts] = {}
@@ -247,7 +242,7 @@ def record() -> tuple[Figures, dict[str, str]]:
     for benchmark in dict.fromkeys(headline.benchmark for headline in HEADLINES):
         chosen = [headline for headline in HEADLINES if headline.benchmark == benchmark]
         try:
-            header, rows = plot.load(benchmark)
+            header, rows = results.load(benchmark)
             measured = header["machine"]["knotopt"]
             if header["smoke"] or measured != version:
                 left_out[benchmark] = "a smoke run" if header["smoke"] else f"of {measured}"
@@ -259,7 +254,7 @@ def record() -> tuple[Figures, dict[str, str]]:
         except (ValueError, TypeError, KeyError) as error:
             raise FileFormatError(f"{benchmark}.jsonl is damaged or outdated: {error!r}") from error
     if not figures:
-        raise FileFormatError(f"no results of version {version} in {plot.RESULTS}")
+        raise FileFormatError(f"no results of version {version} in {results.RESULTS}")
     kept[version] = Figures(version, figures, machines)
     write_atomically(path, "".join(f"{json.dumps(asdict(line))}\n" for line in kept.values()))
     return kept[version], left_out
@@ -294,47 +289,3 @@ def read_versions(path: Path) -> list[Figures]:
         except (ValueError, TypeError, KeyError) as error:
             raise FileFormatError(f"{path}, line {number} is damaged: {error}") from error
     return found
-
-
-def versions_table(versions: list[Figures]) -> str:
-    """One line a figure, one column a version."""
-    cells: dict[tuple[str, str], dict[str, str]] = defaultdict(dict)
-    for line in reversed(versions):  # figures in the order of the newest version that has them
-        for benchmark, figure, value, count in line.figures:
-            cells[benchmark, figure][line.version] = f"{value:.4g} ({count:,})"
-    names = [line.version for line in versions]
-    lines = [
-        f"| benchmark | figure | {' | '.join(names)} |",
-        f"|---|---|{'---:|' * len(names)}",
-    ]
-    for (benchmark, figure), by_version in cells.items():
-        row = " | ".join(by_version.get(name, "-") for name in names)
-        lines.append(f"| {benchmark} | {figure} | {row} |")
-    return "\n".join(lines)
-
-
-def machines_list(versions: list[Figures]) -> str:
-    """What each version's results were measured on, with which packages."""
-    lines = []
-    for line in versions:
-        groups: dict[str, list[str]] = defaultdict(list)
-        for benchmark, facts in line.machines.items():
-            told = ", ".join(f"{key} {value}" for key, value in facts.items() if key != "knotopt")
-            groups[told].append(f"`{benchmark}`")
-        lines += [f"- {line.version}, {', '.join(names)}: {told}" for told, names in groups.items()]
-    return "\n".join(lines)
-
-
-def write_parts() -> tuple[list[str], dict[str, Figure]]:
-    """The parts of the page."""
-    versions = read_versions(plot.RESULTS / FILE)
-    parts = [
-        "# Benchmarks by version",
-        "In brackets: how many cuts, knots, flights or other cases a figure rests on. Times depend "
-        "on the machine; `python -m benchmarks compare REVISION NAME` measures two revisions in "
-        "turn on one.",
-        versions_table(versions),
-        "## Machines and packages",
-        machines_list(versions),
-    ]
-    return parts, {}

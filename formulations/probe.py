@@ -77,19 +77,22 @@ def _cp_sat() -> float:
 
 
 def _highs() -> float:
-    import cvxpy as cp
+    from formulations.backends.cvxpy_milp import quiet_highs
 
-    x = cp.Variable(len(CYCLE), boolean=True)
-    problem = cp.Problem(cp.Minimize(x.sum()), [x[i] + x[j] >= 1 for i, j in CYCLE])
-    return float(problem.solve(solver=cp.HIGHS))  # type: ignore[no-untyped-call]
+    with quiet_highs():
+        return _cover_by_cvxpy("HIGHS")
 
 
 def _scip() -> float:
+    return _cover_by_cvxpy("SCIP")
+
+
+def _cover_by_cvxpy(solver: str) -> float:
     import cvxpy as cp
 
     x = cp.Variable(len(CYCLE), boolean=True)
     problem = cp.Problem(cp.Minimize(x.sum()), [x[i] + x[j] >= 1 for i, j in CYCLE])
-    return float(problem.solve(solver=cp.SCIP))  # type: ignore[no-untyped-call]
+    return float(problem.solve(solver=solver))  # type: ignore[no-untyped-call]
 
 
 def _pysat() -> float:

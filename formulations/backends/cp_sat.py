@@ -6,10 +6,8 @@ With one thread and no time limit its answer depends on the instance and the see
 from __future__ import annotations
 
 import importlib.metadata
-import re
-import signal
-import threading
 import time
+from concurrent.futures import ThreadPoolExecutor, wait
 from typing import Any
 
 from ortools.sat.python import cp_model
@@ -42,24 +40,20 @@ class CpSat:
     features = frozenset(Feature)
 
     def solve(self, instance: Instance, limits: Limits) -> Solution:
-        """Minimise; Ctrl-C is caught by the solver, which returns the best solution so far."""
+        """Minimise; Ctrl-C ends with the best solution so far."""
         if (known := answer_at_once(instance, limits, self.name)) is not None:
             return known
         began = time.perf_counter()
         model = _model(instance)
-        terms = [(j, weight) for j, weight in enumerate(instance.objective) if weight]
-        model.Proto().objective.vars.extend([j for j, _ in terms])
-        model.Proto().objective.coeffs.extend([weight for _, weight in terms])
+        weights = [(j, weight) for j, weight in enumerate(instance.objective) if weight]
+        model.proto.objective.vars.extend([j for j, _ in weights])
+        model.proto.objective.coeffs.extend([weight for _, weight in weights])
         solver = _solver(limits)
-        start = []
+        start, first = [], None
         if instance.start is not None:
-            start = instance.complete(instance.start).tolist()
-            # A callback would say which solution came first, but with one Ctrl-C is not heard.
-            solver.parameters.log_search_progress = True
-            solver.parameters.log_to_stdout = False
-            solver.parameters.log_to_response = True
-            model.Proto().solution_hint.vars.extend(range(len(start)))
-            model.Proto().solution_hint.values.extend(start)
+            start, first = instance.complete(instance.start).tolist(), _First()
+            model.proto.solution_hint.vars.extend(range(len(start)))
+            model.proto.solution_hint.values.extend(start)
         if len(instance.variables) <= SMALL:
             # On instances this small the time goes into presolve, symmetry and linear relaxations.
             solver.parameters.cp_model_presolve = False
@@ -67,8 +61,7 @@ class CpSat:
             solver.parameters.linearization_level = 0
         build_seconds = time.perf_counter() - began
         began = time.perf_counter()
-        status = solver.solve(model).name
-        _hear_interrupts()
+        status = _search(solver, model, first)
         answer = Answer(
             _STATUS.get(status, Status.ERROR),
             status,
@@ -78,10 +71,8 @@ class CpSat:
             answer.values = list(solver.response_proto.solution)
         if answer.status is not Status.ERROR:
             answer.bound = solver.best_objective_bound
-        if instance.start is not None:
-            log = solver.response_proto.solve_log
-            first = re.search(r"^#1\s.*hint", log, re.MULTILINE)
-            answer.start_accepted = first is not None and not instance.violated(start)
+        if first is not None:
+            answer.start_accepted = "hint" in first.origin and not instance.violated(start)
         return checked(
             answer, instance, limits, build_seconds=build_seconds, solver=self._version()
         )
@@ -91,23 +82,25 @@ class CpSat:
         if instance.impossible is not None:
             return Enumeration((), complete=True)
         solver = _solver(limits)
-        solver.parameters.catch_sigint_signal = False
         solver.parameters.num_workers = 1
         solver.parameters.enumerate_all_solutions = True
         every = _All(instance.decisions, count)
-        # With a callback the solver does not hear Ctrl-C; this thread does.
-        search = threading.Thread(target=solver.solve, args=(_model(instance), every))
-        search.start()
-        while search.is_alive():
-            try:
-                search.join(0.1)
-            except KeyboardInterrupt:
-                solver.stop_search()
-        complete = solver.response_proto.status.name in ("OPTIMAL", "INFEASIBLE")
+        complete = _search(solver, _model(instance), every) in ("OPTIMAL", "INFEASIBLE")
         return Enumeration(tuple(sorted(every.sets)[:count]), complete and len(every.sets) <= count)
 
     def _version(self) -> str:
         return f"{self.name} (ortools {importlib.metadata.version('ortools')})"
+
+
+class _First(cp_model.CpSolverSolutionCallback):
+    """Remembers where the first solution came from."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.origin = ""
+
+    def on_solution_callback(self) -> None:
+        self.origin = self.origin or self.response_proto.solution_info
 
 
 class _All(cp_model.CpSolverSolutionCallback):
@@ -127,7 +120,7 @@ class _All(cp_model.CpSolverSolutionCallback):
 
 def _model(instance: Instance) -> cp_model.CpModel:
     model = cp_model.CpModel()
-    proto: Any = model.Proto()
+    proto: Any = model.proto
     for _ in instance.variables:
         proto.variables.add().domain.extend((0, 1))
     for row in instance.rows:
@@ -156,8 +149,26 @@ def _solver(limits: Limits) -> cp_model.CpSolver:
     return solver
 
 
-def _hear_interrupts() -> None:
-    """Give Ctrl-C back to Python: the solver leaves it to the system, which ends the process."""
-    handler = signal.getsignal(signal.SIGINT)
-    if handler is not None and threading.current_thread() is threading.main_thread():
-        signal.signal(signal.SIGINT, handler)
+def _search(
+    solver: cp_model.CpSolver,
+    model: cp_model.CpModel,
+    callback: cp_model.CpSolverSolutionCallback | None,
+) -> str:
+    """Run the solver and name its status.
+
+    The solver's own handler would leave Ctrl-C to the system afterwards, which ends the process,
+    and a callback keeps Python from hearing it: the search runs in a thread and this one listens.
+    """
+    solver.parameters.catch_sigint_signal = False
+    interrupted = False
+    with ThreadPoolExecutor(1) as pool:
+        search = pool.submit(solver.solve, model, callback)
+        while not search.done():
+            try:
+                wait([search], 0.1)
+                if interrupted:  # again and again: before the search has begun it hears nothing
+                    solver.stop_search()
+            except KeyboardInterrupt:
+                interrupted = True
+    status: str = search.result().name
+    return status

@@ -11,10 +11,13 @@ import importlib.util
 import time
 import warnings
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 from unittest.mock import patch
 
 import cvxpy as cp
+import highspy
 import numpy as np
 
 from formulations.instance import Instance
@@ -67,6 +70,34 @@ class _CvxpyBackend(ABC):
     def _answer(self, raw: Any) -> Answer: ...
 
 
+class _QuietHighs(highspy.Highs):
+    """HiGHS that prints nothing, and whose `run`, which cvxpy calls, ends on Ctrl-C."""
+
+    def enableCallbacks(self) -> None:  # noqa: N802
+        # The constructor's first call: without the option it would print HiGHS's banner.
+        self.silent()
+        super().enableCallbacks()  # type: ignore[no-untyped-call]
+
+    def run(self) -> Any:
+        # `run` itself cannot be interrupted; a thread of its own can.
+        self.HandleUserInterrupt = True
+        self.startSolve()
+        ended, status = False, None
+        while not ended:
+            try:
+                ended, status = self.wait(0.1)
+            except KeyboardInterrupt:
+                self.cancelSolve()  # type: ignore[no-untyped-call]
+        return status
+
+
+@contextmanager
+def quiet_highs() -> Iterator[None]:
+    """While it lasts, the HiGHS that cvxpy makes prints nothing and ends on Ctrl-C."""
+    with patch.object(highspy, "Highs", _QuietHighs):
+        yield
+
+
 def _rounded(values: Any) -> list[int]:
     return [round(float(value)) for value in values]
 
@@ -80,22 +111,6 @@ class Highs(_CvxpyBackend):
     features = frozenset({Feature.BOUND, Feature.GAP, Feature.THREADS, Feature.SEED})
 
     def _run(self, chain: Any, problem: cp.Problem, data: Any, limits: Limits) -> Any:
-        import highspy
-
-        class Interruptible(highspy.Highs):
-            """`run`, which cvxpy calls, cannot be interrupted; a thread of its own can."""
-
-            def run(self) -> Any:
-                self.HandleUserInterrupt = True
-                self.startSolve()
-                ended, status = False, None
-                while not ended:
-                    try:
-                        ended, status = self.wait(0.1)
-                    except KeyboardInterrupt:
-                        self.cancelSolve()  # type: ignore[no-untyped-call]
-                return status
-
         options: dict[str, Any] = {
             "threads": limits.threads,
             "random_seed": limits.seed,
@@ -104,7 +119,7 @@ class Highs(_CvxpyBackend):
         }
         if limits.seconds is not None:
             options["time_limit"] = limits.seconds
-        with patch.object(highspy, "Highs", Interruptible):
+        with quiet_highs():
             return chain.solve_via_data(problem, data, solver_opts=options)
 
     def _answer(self, raw: Any) -> Answer:

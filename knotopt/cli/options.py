@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
+from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
@@ -21,6 +22,14 @@ from knotopt.supports.threading import Threading
 
 if TYPE_CHECKING:
     from knotopt.catalogue.lookup import NamedDiagram
+
+
+class PictureFormat(StrEnum):
+    """Of figures whose names a command chooses."""
+
+    PNG = "png"
+    PDF = "pdf"
+    SVG = "svg"
 
 
 def unless_given(default: Any, help: str, *names: str, **settings: Any) -> Any:
@@ -102,6 +111,7 @@ SupportsOption = Annotated[
     ),
 ]
 SupportsCutOption = Annotated[str, cut_option("best (for those supports; a file's own)")]
+FormatOption = Annotated[PictureFormat, typer.Option("--format", help="Of the figures.")]
 FormulationOption = Annotated[
     str,
     typer.Option(

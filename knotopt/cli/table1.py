@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from knotopt.cli.documents import print_tables
-from knotopt.cli.options import JsonOption
+from knotopt.cli.options import FormatOption, JsonOption, PictureFormat
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import track
 
@@ -26,6 +26,7 @@ def table1(
             "row there.",
         ),
     ] = None,
+    picture_format: FormatOption = PictureFormat.PNG,
     as_json: JsonOption = False,
 ) -> None:
     """Recompute the paper's Table I: robots before and after LCF, the smallest sets, the paths.
@@ -43,7 +44,7 @@ def table1(
         from knotopt.tables.table1_files import write_table1
     total = len(chosen_grids(all_grids=all_grids))
     results = list(track(compute_table1(all_grids=all_grids), "grids", total))
-    written = write_table1(out, results) if out is not None else []
+    written = write_table1(out, results, picture_format) if out is not None else []
     if as_json:
         print_json(
             [

@@ -15,10 +15,10 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
-from matplotlib.patheffects import withStroke
 
-from knotopt.arrays import BoolArray, IntArray
+from knotopt.arrays import BoolArray, FloatArray, IntArray
 from knotopt.cable.cable import Cable
+from knotopt.plot.labels import draw_labels
 from knotopt.supports.regions import Regions
 
 CABLE_COLOUR = "#222222"
@@ -27,8 +27,8 @@ SPAN_COLOUR = "#009E73"
 LIFTING_COLOUR = "#D55E00"
 LAYER_COLOURS = ("#FBEBBE", "#F5D57C", "#EBB73A", "#D0930F")
 PASSIVE_COLOUR = "#AAAAAA"
-HALO = [withStroke(linewidth=1.5, foreground="white")]  # keeps numbers legible on hatching
 GAP = 0.2  # half-width of the gap in an under-crossing strand [grid steps]
+CLOSE = 30  # points on a strand
 NUMBER_OFFSET = 8  # from a turning point to its number, along each axis [points]
 
 
@@ -49,19 +49,6 @@ def draw_cable(axes: Axes, cable: Cable) -> None:
     axes.add_collection(
         LineCollection(pieces, colors=CABLE_COLOUR, linewidths=2, capstyle="round", zorder=3)
     )
-    for index, (point, away) in enumerate(zip(cable.path, _away(cable), strict=True), 1):
-        axes.annotate(
-            str(index),
-            point,
-            (NUMBER_OFFSET * away[0], NUMBER_OFFSET * away[1]),
-            textcoords="offset points",
-            fontsize=8,
-            ha="center",
-            va="center",
-            color="#444444",
-            zorder=5,
-            path_effects=HALO,
-        )
     axes.set_xlim(0.2, size + 0.8)
     axes.set_ylim(0.2, size + 0.8)
     axes.set_aspect("equal")
@@ -70,6 +57,18 @@ def draw_cable(axes: Axes, cable: Cable) -> None:
     axes.set_yticks(range(step, size + 1, step))
     axes.tick_params(length=0, labelsize=7, labelcolor="#888888", pad=1)
     axes.spines[:].set_visible(False)
+    count = len(cable.path)
+    corners = cable.points.astype(float)
+    draw_labels(
+        axes,
+        corners,
+        [str(index) for index in range(1, count + 1)],
+        _close(corners),
+        font=[8] * count,
+        distance=NUMBER_OFFSET,
+        first=_away(cable).astype(float),
+        colours=["#444444"] * count,
+    )
 
 
 def draw_robots(axes: Axes, cable: Cable, supports: Collection[int]) -> list[Line2D]:
@@ -80,25 +79,27 @@ def draw_robots(axes: Axes, cable: Cable, supports: Collection[int]) -> list[Lin
     list of Line2D
         Handles for a legend.
     """
-    points = cable.points[sorted(index - 1 for index in supports)]
+    return mark_robots(axes, cable.points[[0, *sorted(k - 1 for k in supports), -1]], size=8)
+
+
+def mark_robots(axes: Axes, robots: FloatArray | IntArray, *, size: float) -> list[Line2D]:
+    """The robots in their order along a cable, shape (k, 2), with handles for a legend."""
+    filled = {"marker": "D", "color": LIFTING_COLOUR}
+    hollow = {
+        "marker": "D",
+        "markerfacecolor": "white",
+        "markeredgecolor": LIFTING_COLOUR,
+        "markeredgewidth": size / 4,
+    }
     handles = []
-    robots: list[tuple[IntArray, str, dict[str, Any]]] = [
-        (points, "support robot", {"marker": "o", "color": SUPPORT_COLOUR}),
-        (cable.points[-1:], "leader $p_n$", {"marker": "D", "color": LIFTING_COLOUR}),
-        (
-            cable.points[:1],
-            "lifting robot $p_1$",
-            {
-                "marker": "D",
-                "markerfacecolor": "white",
-                "markeredgecolor": LIFTING_COLOUR,
-                "markeredgewidth": 2,
-            },
-        ),
-    ]
-    for at, label, style in robots:
+    kinds: tuple[tuple[FloatArray | IntArray, str, dict[str, Any]], ...] = (
+        (robots[1:-1], "support robot", {"marker": "o", "color": SUPPORT_COLOUR}),
+        (robots[-1:], "leader $p_n$", filled),
+        (robots[:1], "lifting robot $p_1$", hollow),
+    )
+    for at, label, style in kinds:
         handles += axes.plot(
-            at[:, 0], at[:, 1], linestyle="", markersize=8, label=label, zorder=4, **style
+            at[:, 0], at[:, 1], linestyle="", markersize=size, label=label, zorder=5, **style
         )
     return handles
 
@@ -158,6 +159,13 @@ def draw_regions(axes: Axes, regions: Regions) -> list[Patch]:
             axes.add_patch(Rectangle((column, row), 1, 1, zorder=1, **style))
         handles.append(Patch(label="passive region", **style))
     return handles
+
+
+def _close(corners: FloatArray) -> FloatArray:
+    """Points of a polyline, close to each other."""
+    at = np.linspace(0, len(corners) - 1, CLOSE * len(corners))
+    index = np.arange(len(corners))
+    return np.column_stack([np.interp(at, index, corners[:, axis]) for axis in (0, 1)])
 
 
 def _squares(interior: BoolArray) -> BoolArray:

@@ -14,8 +14,9 @@ from knotopt.arrays import FloatArray
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.record import FlightRecord
 from knotopt.path.curve import length_along
-from knotopt.plot.cable import CABLE_COLOUR, HALO, LIFTING_COLOUR, SUPPORT_COLOUR
+from knotopt.plot.cable import CABLE_COLOUR, LIFTING_COLOUR, SUPPORT_COLOUR
 from knotopt.plot.figures import LEGEND, PANEL
+from knotopt.plot.labels import HALO
 from knotopt.viewer.colours import ramp
 
 OVER_COLOUR, UNDER_COLOUR = "#009E73", "#CC79A7"

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
@@ -13,30 +11,29 @@ from mpl_toolkits.mplot3d import Axes3D
 from knotopt.arrays import FloatArray
 from knotopt.path.curve import length_along
 from knotopt.path.result import PathResult
-from knotopt.plot.cable import CABLE_COLOUR, HALO, LIFTING_COLOUR, SUPPORT_COLOUR
+from knotopt.plot.cable import CABLE_COLOUR, LIFTING_COLOUR, SUPPORT_COLOUR, mark_robots
+from knotopt.plot.labels import HALO, draw_labels
 
 GAP_SHARE = 0.14  # half-width of the gap in a lower strand, at most [grid steps]
-LIFTING: dict[str, Any] = {"marker": "D", "markersize": 7}
+ROBOT_WEIGHT = 5  # that a robot's middle counts more than a sample of the path under a label
+OVER_COLOUR = "#009E73"
 GRID_COLOUR = "#CCCCCC"
 
 
-def draw_plan(axes: Axes, result: PathResult, *, colour: str = CABLE_COLOUR) -> None:
-    """The path seen from above, broken where it passes under itself."""
-    plan = result.report.samples[:, :2]
+def draw_plan(axes: Axes, result: PathResult) -> list[Line2D]:
+    """The path seen from above on the grey grid path, broken where it passes under itself.
+
+    Returns
+    -------
+    list of Line2D
+        The robots, numbered as turning points, as handles for a legend.
+    """
+    plan, robots = result.report.samples[:, :2], result.robots[:, :2]
+    grid_path = result.cable.points
+    axes.plot(grid_path[:, 0], grid_path[:, 1], color=GRID_COLOUR, linewidth=1, zorder=1)
     axes.add_collection(
-        LineCollection(_pieces(result), colors=colour, linewidths=1.8, capstyle="butt", zorder=3)
+        LineCollection(_pieces(result), colors=CABLE_COLOUR, linewidths=1.8, zorder=3)
     )
-    for k, point in enumerate(result.report.crossings.point, 1):
-        axes.annotate(
-            f"c{k}",
-            point,
-            (5, -8),
-            textcoords="offset points",
-            fontsize=5,
-            color="#009E73",
-            zorder=6,
-            path_effects=HALO,
-        )
     size = result.cable.diagram.size
     low = np.minimum(plan.min(axis=0), 1) - 0.5
     high = np.maximum(plan.max(axis=0), size) + 0.5
@@ -47,42 +44,19 @@ def draw_plan(axes: Axes, result: PathResult, *, colour: str = CABLE_COLOUR) -> 
     axes.tick_params(length=0, labelsize=7, labelcolor="#888888", pad=1)
     axes.spines[:].set_visible(False)
     axes.set_axisbelow(True)
-
-
-def draw_grid_path(axes: Axes, result: PathResult) -> None:
-    """The grid path behind it, in grey."""
-    points = result.cable.points
-    axes.plot(points[:, 0], points[:, 1], color=GRID_COLOUR, linewidth=1, zorder=1)
-
-
-def draw_holders(axes: Axes, result: PathResult) -> list[Line2D]:
-    """The robots of a path, numbered as turning points; handles for a legend."""
-    robots = result.robots[:, :2]
-    numbers = [1, *result.supports, len(result.cable.path)]
-    for number, at in zip(numbers, robots, strict=True):
-        axes.annotate(
-            str(number),
-            at,
-            (7, 5),
-            textcoords="offset points",
-            fontsize=7,
-            color="#444444",
-            zorder=6,
-            path_effects=HALO,
-        )
-    return [
-        *_points(axes, robots[1:-1], "support robot", marker="o", color=SUPPORT_COLOUR),
-        *_points(axes, robots[-1:], "leader $p_n$", marker="D", color=LIFTING_COLOUR),
-        *_points(
-            axes,
-            robots[:1],
-            "lifting robot $p_1$",
-            marker="D",
-            markerfacecolor="white",
-            markeredgecolor=LIFTING_COLOUR,
-            markeredgewidth=2,
-        ),
-    ]
+    crossings = result.report.crossings.point
+    numbers = (1, *result.supports, len(result.cable.path))
+    held, crossed = len(numbers), len(crossings)
+    draw_labels(
+        axes,
+        np.concatenate((robots, crossings.reshape(-1, 2))),
+        [*map(str, numbers), *(f"c{k}" for k in range(1, crossed + 1))],
+        np.concatenate((plan, np.repeat(robots, ROBOT_WEIGHT, axis=0))),
+        font=[7] * held + [5] * crossed,
+        distance=7,
+        colours=["#444444"] * held + [OVER_COLOUR] * crossed,
+    )
+    return mark_robots(axes, robots, size=6)
 
 
 def draw_heights(axes: Axes, result: PathResult) -> list[Line2D]:
@@ -103,7 +77,7 @@ def draw_heights(axes: Axes, result: PathResult) -> list[Line2D]:
             linestyle="",
             marker=marker,
             markersize=5,
-            color="#009E73" if marker == "^" else "#CC79A7",
+            color=OVER_COLOUR if marker == "^" else "#CC79A7",
             label=label,
             zorder=3,
         )
@@ -120,9 +94,7 @@ def draw_heights(axes: Axes, result: PathResult) -> list[Line2D]:
             path_effects=HALO,
         )
     robots = along[[int(((samples - robot) ** 2).sum(axis=1).argmin()) for robot in result.robots]]
-    inner, ends = robots[1:-1], robots[[0, -1]]
-    axes.plot(inner, 0 * inner, "o", color=SUPPORT_COLOUR, markersize=4, zorder=4)
-    axes.plot(ends, 0 * ends, "D", color=LIFTING_COLOUR, markersize=4, zorder=4)
+    mark_robots(axes, np.column_stack((robots, 0 * robots)), size=4)
     for number, s in zip((1, *result.supports, len(result.cable.path)), robots, strict=True):
         axes.annotate(
             str(number), (s, 0), (3, 3), textcoords="offset points", fontsize=6, path_effects=HALO
@@ -144,7 +116,8 @@ def draw_space(axes: Axes3D, result: PathResult) -> None:
     axes.plot(samples[:, 0], samples[:, 1], samples[:, 2], color=CABLE_COLOUR, linewidth=1.4)
     robots = result.robots
     axes.scatter(*robots[1:-1].T, color=SUPPORT_COLOUR, s=18)
-    axes.scatter(*robots[[0, -1]].T, color=LIFTING_COLOUR, marker="D", s=22)
+    axes.scatter(*robots[-1], color=LIFTING_COLOUR, marker="D", s=22)
+    axes.scatter(*robots[0], color="white", edgecolor=LIFTING_COLOUR, marker="D", s=22)
     axes.set_box_aspect((1, 1, 0.3))
     axes.set_zlim(low, max(0.5, float(samples[:, 2].max()) + 0.2))
     for low_end, high_end, limits in (
@@ -172,7 +145,3 @@ def _pieces(result: PathResult) -> list[FloatArray]:
         drawn[np.abs(along - s) < w] = False
     edges = np.flatnonzero(np.diff(np.concatenate(([0], drawn.astype(int), [0]))))
     return [samples[a:b, :2] for a, b in zip(edges[::2], edges[1::2], strict=True)]
-
-
-def _points(axes: Axes, at: FloatArray, label: str, **style: Any) -> list[Line2D]:
-    return axes.plot(at[:, 0], at[:, 1], linestyle="", markersize=6, label=label, zorder=5, **style)

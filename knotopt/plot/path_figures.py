@@ -13,16 +13,9 @@ from matplotlib.figure import Figure
 from knotopt.path.measures import status_word
 from knotopt.path.relaxation import RelaxationRun, straightening
 from knotopt.path.result import PathResult
-from knotopt.plot.cable import draw_cable, draw_robots
+from knotopt.plot.cable import draw_cable, draw_robots, mark_robots
 from knotopt.plot.figures import LEGEND, PANEL
-from knotopt.plot.path import (
-    GRID_COLOUR,
-    draw_grid_path,
-    draw_heights,
-    draw_holders,
-    draw_plan,
-    draw_space,
-)
+from knotopt.plot.path import GRID_COLOUR, draw_heights, draw_plan, draw_space
 
 NAMES = {"nlp": "program", "relaxation": "relaxation"}
 SPRING_COLOUR, FORCE_COLOUR, BEFORE_COLOUR = "#56B4E9", "#D55E00", "#999999"
@@ -36,9 +29,7 @@ def path_figure(results: Sequence[PathResult], title: str) -> Figure:
     handles: list[Any] = []
     for row, result in enumerate(results):
         plan = figure.add_subplot(grid[2 * row, 0])
-        draw_grid_path(plan, result)
-        draw_plan(plan, result)
-        handles = list(draw_holders(plan, result))
+        handles = draw_plan(plan, result)
         plan.set_title(_caption(result), fontsize=8, parse_math=False)
         draw_space(figure.add_subplot(grid[2 * row, 1], projection="3d"), result)
         handles += draw_heights(figure.add_subplot(grid[2 * row + 1, :]), result)
@@ -66,9 +57,7 @@ def relaxation_figure(
         (panels[3], relaxed, "(d) relaxed"),
         (panels[4], optimised, "(e) program"),
     ):
-        draw_grid_path(axes, result)
         draw_plan(axes, result)
-        draw_holders(axes, result)
         axes.set_title(f"{name}: {_caption(result, brief=True)}", fontsize=8, parse_math=False)
     _draw_trajectories(panels[5], run)
     panels[5].set_title(f"nodes over {run.steps} steps", fontsize=8)
@@ -87,9 +76,7 @@ def braid_figure(result: PathResult, title: str) -> Figure:
     draw_cable(left, result.cable)
     handles = draw_robots(left, result.cable, range(2, count))
     left.set_title(f"every corner held: {count} robots", fontsize=8)
-    draw_grid_path(right, result)
     draw_plan(right, result)
-    draw_holders(right, result)
     right.set_title(f"reduced: {len(result.supports) + 2} robots", fontsize=8)
     figure.suptitle(title, fontsize=9, parse_math=False)
     figure.legend(handles=handles, loc="outside lower center", ncols=3, **LEGEND)
@@ -126,7 +113,7 @@ def _draw_nodes(axes: Axes, run: RelaxationRun, step: int, *, springs: bool) -> 
         force[run.fixed] = 0
         axes.quiver(*now.T, *force.T, color=FORCE_COLOUR, scale=12, width=0.008, zorder=4)
     axes.plot(*now[~run.fixed].T, "o", color=BEFORE_COLOUR, markersize=3, zorder=5)
-    axes.plot(*now[run.fixed].T, "o", color="#0072B2", markersize=6, zorder=5)
+    mark_robots(axes, now[run.fixed], size=6)
     axes.tick_params(length=0, labelsize=7, labelcolor="#888888", pad=1)
     axes.spines[:].set_visible(False)
 

@@ -12,8 +12,10 @@ import pytest
 from typer.testing import CliRunner
 
 from benchmarks import __main__ as harness
-from benchmarks import headlines, plot
+from benchmarks import headlines, results
 from benchmarks.compare import ROOT, compare, fastest
+from benchmarks.plots import lcf
+from benchmarks.plots.versions import write_parts
 from benchmarks.registry import BENCHMARKS, Benchmark, register
 from knotopt.errors import FileFormatError, OutputError
 
@@ -31,12 +33,16 @@ def test_every_benchmark_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
     assert rows[0]["case"] == {"knot": "3_1"} and set(rows[0]["result"]["robots"]) >= {"L+", "T-"}
     listed = CliRunner().invoke(harness.app, ["list"]).output
     assert all(name in listed for name in BENCHMARKS)
-    monkeypatch.setattr(plot, "RESULTS", tmp_path)
-    monkeypatch.setattr(plot, "FIT_FROM", 0)
+    monkeypatch.setattr(results, "RESULTS", tmp_path)
+    monkeypatch.setattr(lcf, "FIT_FROM", 0)
     drawn = CliRunner().invoke(harness.app, ["plot"])
     assert drawn.exit_code == 0, drawn.output
     assert "At N = " in (tmp_path / "summary.md").read_text()
     assert (tmp_path / "growth.png").stat().st_size > 10_000
+    linked = [f"{picture.stem}.pdf" for picture in tmp_path.glob("*.png")]
+    drawn = CliRunner().invoke(harness.app, ["plot", "--format", "pdf"])
+    assert drawn.exit_code == 0, drawn.output
+    assert len(linked) > 5 and all((tmp_path / name).read_bytes()[:4] == b"%PDF" for name in linked)
 
     kept = CliRunner().invoke(harness.app, ["record"])  # of smoke runs there is nothing to keep
     assert kept.exit_code == 2 and "no results of version" in kept.output
@@ -57,7 +63,7 @@ def results_of(version: str, folder: Path) -> None:
     """The results as they are kept, as if measured with that version."""
     for benchmark in {headline.benchmark for headline in headlines.HEADLINES}:
         header, rest = (
-            (plot.RESULTS / f"{benchmark}.jsonl").read_text("utf-8").split("\n", maxsplit=1)
+            (results.RESULTS / f"{benchmark}.jsonl").read_text("utf-8").split("\n", maxsplit=1)
         )
         facts = json.loads(header)
         facts["machine"]["knotopt"] = version
@@ -69,7 +75,7 @@ def test_the_figures_of_each_version_are_kept(
 ) -> None:
     version = harness.machine_facts()["knotopt"]
     results_of(version, tmp_path)
-    monkeypatch.setattr(plot, "RESULTS", tmp_path)
+    monkeypatch.setattr(results, "RESULTS", tmp_path)
     older = {"version": "0.0.1", "figures": [["old", "time [s]", 12.5, 3]], "machines": {}}
     versions = tmp_path / headlines.FILE
     versions.write_text(json.dumps(older) + "\n" + json.dumps({**older, "version": version}) + "\n")
@@ -88,7 +94,7 @@ def test_the_figures_of_each_version_are_kept(
     assert "left out: paths, no results" in told.output
     assert "left out: solvers, of 0.0.1" in told.output
     assert versions.read_bytes() != once and len(records(versions)) == 2
-    page = "\n".join(headlines.write_parts()[0])
+    page = "\n".join(write_parts()[0])
     assert f"| benchmark | figure | 0.0.1 | {version} |" in page
     assert "| old | time [s] | 12.5 (3) | - |" in page
     assert "| CP-SAT" not in page and f"- {version}, `startup`" in page
@@ -96,7 +102,7 @@ def test_the_figures_of_each_version_are_kept(
 
 def test_damaged_results_are_not_recorded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     results_of(harness.machine_facts()["knotopt"], tmp_path)
-    monkeypatch.setattr(plot, "RESULTS", tmp_path)
+    monkeypatch.setattr(results, "RESULTS", tmp_path)
     versions = tmp_path / headlines.FILE
     for name, text, why in (
         (headlines.FILE, '{"version": "0.0.1", "figures": [["a", "b", 1]]}\n', "line 1 is damaged"),

@@ -11,6 +11,8 @@ import pytest
 
 import formulations
 from formulations import probe
+from formulations.backends import BACKENDS
+from formulations.instance import Instance, Row
 
 
 def test_the_optimum_of_the_probe_by_brute_force() -> None:
@@ -38,6 +40,36 @@ def test_cvxpy_and_cp_sat_share_a_process_in_either_import_order(order: str) -> 
     )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert run.stdout.strip() == "True", run.stderr
+
+
+@pytest.mark.parametrize("solver", [*BACKENDS, *probe.PROBES])
+def test_no_solver_writes_to_the_terminal(solver: str) -> None:
+    """Nor to the process's standard streams below Python, where a solver's own code writes."""
+    instance = Instance(
+        "edges of the 5-cycle",
+        tuple("abcde"),
+        5,
+        (1,) * 5,
+        tuple(Row((i + 1, j + 1), 1, "cover", f"{i} {j}") for i, j in probe.CYCLE),
+        start=(1, 2, 3, 4, 5),
+    )
+    code = (
+        "from formulations.backends import BACKENDS, get_backend\n"
+        "from formulations.instance import Instance\n"
+        "from formulations.probe import PROBES\n"
+        "from formulations.solution import Feature, Limits\n"
+        f"instance, solver = Instance.from_json({instance.to_json()!r}), {solver!r}\n"
+        "if solver in PROBES:\n"
+        "    PROBES[solver][0]()\n"
+        "else:\n"
+        "    backend = get_backend(solver)\n"
+        "    for _ in range(2):\n"
+        "        assert backend.solve(instance, Limits(seconds=10)).objective == 3\n"
+        "    if Feature.ENUMERATION in backend.features:\n"
+        "        assert len(backend.enumerate(instance, Limits(), 100).sets) == 11\n"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
 
 
 def test_an_unknown_solver_has_no_probe() -> None:

@@ -2,22 +2,29 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from knotopt import optimise_path, relax, relaxed_path
 from knotopt.cable.cable import Cable
+from knotopt.cable.cut import outer_cuts
 from knotopt.catalogue.knots import shipped_knots
+from knotopt.catalogue.lookup import find_knot
 from knotopt.cli.drawing import draw_text
 from knotopt.diagram.families import torus_knot
 from knotopt.errors import OutputError
 from knotopt.plot.cable import GAP, draw_cable, draw_regions, draw_robots
 from knotopt.plot.figures import before_after_figure, cable_figure, save_figure
+from knotopt.plot.path_figures import path_figure, relaxation_figure
 from knotopt.supports.lcf import best_cut, lcf
 from knotopt.supports.regions import Regions
 from tests.strategies import cables
@@ -54,6 +61,46 @@ def test_turning_points_are_numbered_beside_their_corners() -> None:
     draw_cable(axes, EIGHT.cable)
     numbered = {int(text.get_text()): tuple(text.xy) for text in axes.texts}
     assert numbered == dict(enumerate(EIGHT.cable.path, 1))
+
+
+def overlapping(figure: Figure, axes: Axes) -> list[tuple[str, str]]:
+    """Pairs of labels in a panel whose boxes meet in the finished picture."""
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    boxes = [(text.get_text(), text.get_window_extent()) for text in axes.texts]
+    return [(a, b) for (a, one), (b, other) in combinations(boxes, 2) if one.overlaps(other)]
+
+
+@pytest.mark.parametrize("name", ["7_6", "8_19", "9_2"])
+def test_numbers_of_turning_points_do_not_collide(name: str) -> None:
+    for cut in outer_cuts(shipped_knots()[name].diagram):
+        figure = cable_figure(Cable(shipped_knots()[name].diagram, cut), name)
+        assert not overlapping(figure, figure.axes[0]), (name, cut)
+
+
+def test_labels_of_a_path_do_not_collide_and_leave_it_visible() -> None:
+    """4_1: two supports close to all four crossings."""
+    chosen = best_cut(find_knot("4").diagram)
+    result = optimise_path(chosen.cable, chosen.supports)
+    figure = path_figure([result], "4_1")
+    plan = figure.axes[0]
+    assert not overlapping(figure, plan)
+    path = plan.transData.transform(result.report.samples[:, :2])
+    for text in plan.texts:
+        box = text.get_window_extent()
+        inside = (path >= (box.x0, box.y0)) & (path <= (box.x1, box.y1))
+        assert inside.all(axis=1).sum() < 5, text.get_text()
+
+
+def test_lifting_robots_are_drawn_as_such_in_every_panel() -> None:
+    chosen = best_cut(find_knot("4").diagram)
+    relaxed = relaxed_path(chosen.cable, chosen.supports)
+    run = relax(chosen.cable, chosen.supports)
+    figure = relaxation_figure(run, relaxed, relaxed, "Fig. 5")
+    for axes in figure.axes[:5]:
+        kinds = {line.get_label(): len(line.get_xdata()) for line in axes.lines}
+        assert kinds["support robot"] == len(chosen.supports), axes.get_title()
+        assert kinds["leader $p_n$"] == kinds["lifting robot $p_1$"] == 1, axes.get_title()
 
 
 def test_robots_stand_on_their_turning_points() -> None:

@@ -95,27 +95,55 @@ def test_a_time_limit_gives_what_is_known(name: str) -> None:
     assert found.seed == 3 and found.raw_status
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["cp-sat", "highs", "scip", "maxsat"])
-def test_ctrl_c_gives_the_best_so_far(name: str, tmp_path: Path) -> None:
-    file = tmp_path / "hard.json"
+def interrupt(name: str, folder: Path, code: str) -> list[str]:
+    """What `code` prints when Ctrl-C reaches it after two seconds on the hard instance.
+
+    A second Ctrl-C, once the solver is done, must reach Python again.
+    """
+    file = folder / "hard.json"
     file.write_text(hard_instance().to_json())
     code = (
-        "import os, subprocess\n"
+        "import os, signal, subprocess, time\n"
         "from formulations.backends import get_backend\n"
         "from formulations.instance import Instance\n"
         "from formulations.solution import Limits\n"
         f"instance = Instance.from_json(open({str(file)!r}).read())\n"
         f"backend = get_backend({name!r})\n"
         "subprocess.Popen(f'sleep 2; kill -INT {os.getpid()}', shell=True)\n"
-        "found = backend.solve(instance, Limits(seconds=60))\n"
-        "print(found.status, found.objective, found.solve_seconds < 30)\n"
+        f"{code}\n"
+        "try:\n"
+        "    os.kill(os.getpid(), signal.SIGINT)\n"
+        "    time.sleep(10)\n"
+        "except KeyboardInterrupt:\n"
+        "    print('heard')\n"
     )
     run = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=120
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=120
     )
-    last = run.stdout.splitlines()[-1].split()
-    assert last[0] == "feasible" and int(last[1]) > 0 and last[2] == "True", run
+    *said, last = run.stdout.splitlines()
+    assert last == "heard" and not run.stderr
+    return said
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["cp-sat", "highs", "scip", "maxsat"])
+def test_ctrl_c_gives_the_best_so_far(name: str, tmp_path: Path) -> None:
+    code = (
+        "found = backend.solve(instance, Limits(seconds=60))\n"
+        "print(found.status, found.objective, found.interrupted, found.solve_seconds < 30)"
+    )
+    status, objective, *sooner = interrupt(name, tmp_path, code)[-1].split()
+    assert status == "feasible" and int(objective) > 0 and sooner == ["True", "True"]
+
+
+@pytest.mark.slow
+def test_ctrl_c_ends_an_enumeration_with_the_sets_so_far(tmp_path: Path) -> None:
+    code = (
+        "found = backend.enumerate(instance, Limits(seconds=60), 10**6)\n"
+        "print(found.complete, len(found.sets) > 1, not any(\n"
+        "    instance.violated(instance.complete(chosen)) for chosen in found.sets[:100]))"
+    )
+    assert interrupt("cp-sat", tmp_path, code) == ["False True True"]
 
 
 def test_what_makes_no_sense_is_refused() -> None:

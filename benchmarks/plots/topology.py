@@ -8,7 +8,7 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from benchmarks import plot
+from benchmarks.results import load
 from knotopt.plot.figures import PANEL
 
 Rows = list[dict[str, Any]]
@@ -116,9 +116,9 @@ def topology_figure(growth: Rows, planning: Rows) -> Figure:
 
 def write_parts() -> tuple[list[str], dict[str, Figure]]:
     """The parts of the page."""
-    header, growth = plot.load("topology_growth")
-    _, planning = plot.load("topology_planning")
-    _, extraction = plot.load("topology_extraction")
+    header, growth = load("topology_growth")
+    _, planning = load("topology_planning")
+    _, extraction = load("topology_extraction")
     machine = ", ".join(f"{key} {value}" for key, value in header["machine"].items())
     parts = [
         "# States of a rope",

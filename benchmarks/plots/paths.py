@@ -8,12 +8,15 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from benchmarks.plot import FAMILIES, load
-from knotopt.plot.figures import PANEL
+from benchmarks.plots.axes import draw_medians, family_legend, panel
+from benchmarks.results import FAMILIES, SMALL, load
 
 Rows = list[dict[str, Any]]
 DONE = ("solved", "converged")
-SMALL = 11  # grids up to this size are those of which a time is asked
+GOAL_STRETCH = 1.25  # asked for the median
+GOAL_SECONDS = 5.0  # asked of the program at N = 40
+GOAL: dict[str, Any] = {"color": "#CC79A7", "linewidth": 0.8, "linestyle": "-"}
+WEIGHT = 0.04  # of bending, unless another is asked for
 METHODS = {"relaxation": "#999999", "nlp": "#0072B2"}
 
 
@@ -162,8 +165,7 @@ def growth_table(rows: Rows) -> str:
 
 def stretch_figure(rows: Rows) -> Figure:
     """Length over the taut string's, sorted, by supports and method."""
-    figure = Figure(figsize=(PANEL, PANEL), layout="constrained")
-    axes = figure.subplots()
+    figure, axes = panel()
     for supports, style in (("lcf", "-"), ("opening", "--")):
         for method, colour in METHODS.items():
             values = sorted(p["stretch"] for p in _paths(rows, supports, method))
@@ -174,7 +176,7 @@ def stretch_figure(rows: Rows) -> Figure:
                 linestyle=style,
                 label=f"{'program' if method == 'nlp' else method}, {supports}",
             )
-    axes.axhline(1.25, color="#CC79A7", linewidth=0.8)
+    axes.axhline(GOAL_STRETCH, label=f"goal for the median: {GOAL_STRETCH}", **GOAL)
     axes.set(xlabel="share of 249 knots [%]", ylabel="length over the taut string's")
     axes.legend(fontsize=7, frameon=False)
     axes.grid(alpha=0.3)
@@ -183,8 +185,7 @@ def stretch_figure(rows: Rows) -> Figure:
 
 def tradeoff_figure(rows: Rows) -> Figure:
     """Length against bending as the weight grows, a line a row of Table I."""
-    figure = Figure(figsize=(PANEL, PANEL), layout="constrained")
-    axes = figure.subplots()
+    figure, axes = panel()
     groups: dict[str, Rows] = defaultdict(list)
     for row in rows:
         if row["smooth"]:  # a polyline has no curvature to measure
@@ -197,43 +198,42 @@ def tradeoff_figure(rows: Rows) -> Figure:
             markersize=3,
             label=f"row {name}",
         )
-        for row in group:
-            if row["bending"] == 0.04:
-                axes.plot(row["bending_energy"], row["stretch"], "k*", markersize=7, zorder=4)
+    usual = [row for group in groups.values() for row in group if row["bending"] == WEIGHT]
+    axes.plot(
+        [row["bending_energy"] for row in usual],
+        [row["stretch"] for row in usual],
+        "k*",
+        markersize=7,
+        zorder=4,
+        label=f"weight {WEIGHT}, the default",
+    )
     axes.set(
         xscale="log",
         xlabel="bending: squared curvature, integrated",
         ylabel="length over the taut string's",
     )
-    axes.legend(fontsize=7, frameon=False)
+    figure.legend(loc="outside lower center", ncols=3, fontsize=7, frameon=False)
     axes.grid(alpha=0.3)
     return figure
 
 
 def growth_figure(rows: Rows) -> Figure:
     """Time against grid size, log-log, both methods."""
-    figure = Figure(figsize=(PANEL, PANEL), layout="constrained")
-    axes = figure.subplots()
-    for place, style, name in ((1, "-", "program"), (0, ":", "relaxation")):
+    figure, axes = panel()
+    styles = {"program": "-", "relaxation": ":"}
+    for place, style in ((1, styles["program"]), (0, styles["relaxation"])):
         for family, (marker, colour) in FAMILIES.items():
-            times: dict[int, list[float]] = defaultdict(list)
+            times: dict[float, list[float]] = defaultdict(list)
             for row in rows:
                 if row["family"] == family:
                     times[row["size"]].append(row["paths"][place]["milliseconds"] / 1e3)
-            axes.plot(
-                list(times),
-                [median(values) for values in times.values()],
-                marker=marker,
-                color=colour,
-                linestyle=style,
-                markersize=4,
-                label=f"{name}, {family}",
-            )
-    axes.axhline(5, color="#CC79A7", linewidth=0.8)
+            draw_medians(axes, times, marker=marker, color=colour, linestyle=style, markersize=4)
+    label = f"goal at N = 40: {GOAL_SECONDS:g} s"
+    goal = axes.axhline(GOAL_SECONDS, xmin=0.8, label=label, **GOAL)
     axes.set(xscale="log", yscale="log", xlabel="grid size N", ylabel="time [s]")
     axes.set_xticks([10, 20, 40], labels=["10", "20", "40"])
     axes.minorticks_off()
-    axes.legend(fontsize=6, frameon=False)
+    family_legend(axes, styles, goal)
     axes.grid(alpha=0.3)
     return figure
 

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import math
 from collections import Counter, defaultdict
+from collections.abc import Callable
 from statistics import mean, median
 from typing import Any
 
 from matplotlib.figure import Figure
 
-from benchmarks.plot import FAMILIES, load
+from benchmarks.plots.axes import draw_medians, family_legend, panel, robots_by_crossings
+from benchmarks.results import FAMILIES, load
 from knotopt.atlas.report.performance import SHIFT, SOLVERS, draw_profile, shifted_geometric_mean
 from knotopt.document.markdown import markdown_block
 from knotopt.document.model import table_of
-from knotopt.plot.figures import PANEL
 
 Rows = list[dict[str, Any]]
 
@@ -129,37 +130,25 @@ def profile_figure(rows: Rows) -> Figure:
                 solved = run["status"] == "optimal"
                 by_cut[run["cut"]][run["solver"]] = run["seconds"] if solved else math.inf
         programs += by_cut.values()
-    figure = Figure(figsize=(PANEL, PANEL), layout="constrained")
-    draw_profile(figure.subplots(), programs)
+    figure, axes = panel()
+    draw_profile(axes, programs)
     return figure
 
 
 def robots_figure(rows: Rows) -> Figure:
-    """Mean robots by crossing number, over all cuts: LCF, layered, opening, span."""
-    figure = Figure(figsize=(PANEL, PANEL), layout="constrained")
-    axes = figure.subplots()
-    numbers = sorted({row["crossing_number"] for row in rows})
-    for label, marker, colour, key in (
-        ("baseline 2N", "s", "#666666", "baseline"),
-        ("span, smallest", "v", "#CC79A7", "span"),
-        ("LCF", "o", "#0072B2", "lcf"),
-        ("opening, smallest", "^", "#D55E00", "opening"),
-        ("LCF layered", "D", "#009E73", "layered"),
-    ):
-        means = [
-            mean(
-                cut[key]
-                for row in rows
-                if row["crossing_number"] == number
-                for cut in row["cuts"].values()
-            )
-            for number in numbers
-        ]
-        axes.plot(numbers, means, marker=marker, color=colour, markersize=5, label=label)
-    axes.set(xlabel="crossing number", ylabel="mean number of robots", ylim=(0, None))
-    axes.legend(fontsize=7, frameon=False)
-    axes.grid(alpha=0.3)
-    return figure
+    """Robots by crossing number, over all cuts: LCF, layered, opening, span."""
+
+    def of_cuts(key: str) -> Callable[[dict[str, Any]], list[float]]:
+        return lambda row: [cut[key] for cut in row["cuts"].values()]
+
+    series = (
+        ("baseline 2N", "s", "#666666", of_cuts("baseline")),
+        ("span, smallest", "v", "#CC79A7", of_cuts("span")),
+        ("LCF", "o", "#0072B2", of_cuts("lcf")),
+        ("opening, smallest", "^", "#D55E00", of_cuts("opening")),
+        ("LCF layered", "D", "#009E73", of_cuts("layered")),
+    )
+    return robots_by_crossings(rows, series)
 
 
 def growth_table(rows: Rows) -> str:
@@ -189,27 +178,19 @@ def growth_table(rows: Rows) -> str:
 
 def growth_figure(rows: Rows) -> Figure:
     """Compile plus solve time against grid size, log-log, by formulation and family."""
-    figure = Figure(figsize=(PANEL, PANEL), layout="constrained")
-    axes = figure.subplots()
-    for formulation, style in (("opening", "-"), ("span", "--")):
+    figure, axes = panel()
+    styles = {"opening": "-", "span": "--"}
+    for formulation, style in styles.items():
         for family, (marker, colour) in FAMILIES.items():
-            times: dict[int, list[float]] = defaultdict(list)
+            times: dict[float, list[float]] = defaultdict(list)
             for row in rows:
                 if (row["formulation"], row["family"]) == (formulation, family):
                     times[row["size"]].append(row["compile_seconds"] + row["solve_seconds"])
-            axes.plot(
-                list(times),
-                [median(values) for values in times.values()],
-                marker=marker,
-                color=colour,
-                linestyle=style,
-                markersize=4,
-                label=f"{formulation}, {family}",
-            )
+            draw_medians(axes, times, marker=marker, color=colour, linestyle=style, markersize=4)
     axes.set(xscale="log", yscale="log", xlabel="grid size N", ylabel="compile and solve [s]")
     axes.set_xticks([10, 20, 40, 60], labels=["10", "20", "40", "60"])
     axes.minorticks_off()
-    axes.legend(fontsize=6, frameon=False)
+    family_legend(axes, styles)
     axes.grid(alpha=0.3)
     return figure
 

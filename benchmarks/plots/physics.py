@@ -7,7 +7,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from benchmarks import plot
+from benchmarks import results
 from benchmarks.physics_subsets import LOST_AT
 from knotopt.sim.trials import wilson_interval
 
@@ -48,12 +48,12 @@ def rates_table(rows: Rows) -> str:
         "| method | sets | tied undisturbed | disturbed flights | tied | 95 % interval |",
         "|---|---|---|---|---|---|",
     ]
-    for method, results in sets.items():
-        flights = sum(len(each["disturbed"]) if each["planned"] else 5 for each in results)
-        tied = sum(each.get("tied_disturbed", 0) for each in results)
+    for method, some in sets.items():
+        flights = sum(len(each["disturbed"]) if each["planned"] else 5 for each in some)
+        tied = sum(each.get("tied_disturbed", 0) for each in some)
         low, high = wilson_interval(tied, flights)
         lines.append(
-            f"| {method} | {len(results)} | {sum(each.get('tied', False) for each in results)} "
+            f"| {method} | {len(some)} | {sum(each.get('tied', False) for each in some)} "
             f"| {flights} | {tied} | {low:.2f} to {high:.2f} |"
         )
     return "\n".join(lines)
@@ -154,7 +154,7 @@ def safe_table(rows: Rows) -> str:
 
 def write_parts() -> tuple[list[str], dict[str, Figure]]:
     """The parts of the page."""
-    header, rows = plot.load("physics")
+    header, rows = results.load("physics")
     machine = ", ".join(f"{key} {value}" for key, value in header["machine"].items())
     parts = [
         "# Flights in physics",
@@ -172,8 +172,8 @@ def write_parts() -> tuple[list[str], dict[str, Figure]]:
         "## Set by set",
         flown_table(rows),
     ]
-    if (plot.RESULTS / "physics_optimal.jsonl").exists():
-        _, optimal = plot.load("physics_optimal")
+    if (results.RESULTS / "physics_optimal.jsonl").exists():
+        _, optimal = results.load("physics_optimal")
         parts += [
             "## All smallest sets of `span`, Table I",
             f"How many of the smallest sets flown tie in all of seeds 1 to {SEEDS}: at r = 0.25 "
@@ -182,15 +182,15 @@ def write_parts() -> tuple[list[str], dict[str, Figure]]:
             "Set 1 is the canonical one.",
             flown_table(optimal),
         ]
-    if (plot.RESULTS / "physics_knots.jsonl").exists():
-        _, knots = plot.load("physics_knots")
+    if (results.RESULTS / "physics_knots.jsonl").exists():
+        _, knots = results.load("physics_knots")
         parts += [
             "## Knots to 7 crossings, KnotInfo's grids",
             rates_table(knots),
             flown_table(knots),
         ]
-    if (plot.RESULTS / "physics_subsets.jsonl").exists():
-        _, subsets = plot.load("physics_subsets")
+    if (results.RESULTS / "physics_subsets.jsonl").exists():
+        _, subsets = results.load("physics_subsets")
         parts += [
             "## Subsets of supports on modelled routes, against the models",
             confusion_table(subsets),
@@ -201,8 +201,8 @@ def write_parts() -> tuple[list[str], dict[str, Figure]]:
             f"By the regions that `span` loses at r = {LOST_AT}:",
             lost_table(subsets),
         ]
-    if (plot.RESULTS / "physics_tight.jsonl").exists():
-        _, tight = plot.load("physics_tight")
+    if (results.RESULTS / "physics_tight.jsonl").exists():
+        _, tight = results.load("physics_tight")
         parts += [
             "## Pulled tight after the flight",
             "The ends fly apart along the outside, 30 m at most, which is more than any of these "

@@ -1,33 +1,21 @@
-"""`python -m benchmarks plot`: figures and a summary from the results in `benchmarks/results`."""
+"""The page `summary.md` and its figures, from the results of LCF's benchmarks."""
 
 from __future__ import annotations
 
-import json
 from collections import defaultdict
 from collections.abc import Callable
-from pathlib import Path
 from statistics import mean, median
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
+from benchmarks.plots.axes import SPREAD, draw_medians, panel, robots_by_crossings
+from benchmarks.results import FAMILIES, SPEED_AT, load
 from knotopt.document.markdown import markdown_block
 from knotopt.document.model import table_of
-from knotopt.files import write_atomically
-from knotopt.plot.figures import PANEL, save_figure
 
-RESULTS = Path(__file__).parent / "results"
-SPEED_AT = 11  # grid size of a typical 9-crossing knot
 FIT_FROM = 40  # growth exponents are fitted to N >= 40, where fixed costs no longer count
-FAMILIES = {"random": ("o", "#0072B2"), "T(p,p+1)": ("s", "#D55E00"), "T(2,N-2)": ("^", "#009E73")}
-
-
-def load(name: str) -> tuple[dict[str, Any], list[dict[str, Any]]]:
-    """Header and records of a benchmark; each record is its case and result in one."""
-    header, *records = (RESULTS / f"{name}.jsonl").read_text(encoding="utf-8").splitlines()
-    rows = [json.loads(record) for record in records]
-    return json.loads(header), [{**row["case"], **row["result"]} for row in rows]
 
 
 def catalogue_summary(rows: list[dict[str, Any]]) -> str:
@@ -97,57 +85,37 @@ def growth_summary(rows: list[dict[str, Any]]) -> str:
 
 def growth_figure(rows: list[dict[str, Any]]) -> Figure:
     """Time of LCF on one cut against grid size, log-log, one marker a family."""
-    figure = Figure(figsize=(PANEL, PANEL), layout="constrained")
-    axes = figure.subplots()
+    figure, axes = panel()
     for family, (marker, colour) in FAMILIES.items():
-        times = _by_size(rows, family, "seconds")
-        label = f"{family}: $N^{{{growth_exponent(rows, family):.1f}}}$"
-        axes.plot(
-            list(times),
-            [1e3 * median(values) for values in times.values()],
+        seconds = _by_size(rows, family, "seconds")
+        draw_medians(
+            axes,
+            {size: [1e3 * value for value in values] for size, values in seconds.items()},
             marker=marker,
             color=colour,
             markersize=4,
-            label=label,
+            label=f"{family}: $N^{{{growth_exponent(rows, family):.1f}}}$",
         )
     axes.set(xscale="log", yscale="log", xlabel="grid size N", ylabel="LCF on one cut [ms]")
     axes.set_xticks([10, 20, 50, 100], labels=["10", "20", "50", "100"])
-    axes.legend(fontsize=7, frameon=False)
+    axes.legend(fontsize=7, frameon=False, **SPREAD)
     axes.grid(alpha=0.3)
     return figure
 
 
 def robots_figure(rows: list[dict[str, Any]]) -> Figure:
     """Robots by crossing number: baseline, LCF over all cuts, LCF on the best cut."""
-    figure = Figure(figsize=(PANEL, PANEL), layout="constrained")
-    axes = figure.subplots()
-    numbers = sorted({row["crossing_number"] for row in rows})
-    groups = [[row for row in rows if row["crossing_number"] == c] for c in numbers]
     series: tuple[tuple[str, str, str, Callable[[dict[str, Any]], list[int]]], ...] = (
         ("baseline 2N", "s", "#666666", lambda row: [row["robots_before"]]),
         ("LCF, all cuts", "o", "#0072B2", lambda row: list(row["robots"].values())),
         ("LCF layered, all cuts", "D", "#009E73", lambda row: list(row["robots_layered"].values())),
         ("LCF, best cut", "^", "#D55E00", lambda row: [min(row["robots"].values())]),
     )
-    for label, marker, colour, pick in series:
-        means = [mean(value for row in group for value in pick(row)) for group in groups]
-        axes.plot(numbers, means, marker=marker, color=colour, markersize=5, label=label)
-    axes.set(xlabel="crossing number", ylabel="mean number of robots", ylim=(0, None))
-    axes.legend(fontsize=7, frameon=False)
-    axes.grid(alpha=0.3)
-    return figure
+    return robots_by_crossings(rows, series)
 
 
-def main() -> None:
-    """Write summary.md (LCF), the other pages and the figures beside the results."""
-    from benchmarks import (
-        headlines,
-        plot_formulations,
-        plot_paths,
-        plot_physics,
-        plot_topology,
-    )
-
+def write_parts() -> tuple[list[str], dict[str, Figure]]:
+    """The parts of the page."""
     _, startup = load("startup")
     header, catalogue = load("lcf_catalogue")
     _, growth = load("lcf_growth")
@@ -169,22 +137,7 @@ def main() -> None:
         "## Command line",
         "\n".join(f"- {answer}" for answer in answers),
     ]
-    write_atomically(RESULTS / "summary.md", "\n\n".join(parts) + "\n")
-    save_figure(robots_figure(catalogue), RESULTS / "robots.png")
-    save_figure(growth_figure(growth), RESULTS / "growth.png")
-    pages = {
-        "formulations.md": plot_formulations,
-        "paths.md": plot_paths,
-        "physics.md": plot_physics,
-        "topology.md": plot_topology,
-    }
-    if (RESULTS / headlines.FILE).exists():
-        pages["versions.md"] = headlines
-    for page, source in pages.items():
-        parts, figures = source.write_parts()
-        write_atomically(RESULTS / page, "\n\n".join(parts) + "\n")
-        for name, figure in figures.items():
-            save_figure(figure, RESULTS / name)
+    return parts, {"robots.png": robots_figure(catalogue), "growth.png": growth_figure(growth)}
 
 
 def _by_size(rows: list[dict[str, Any]], family: str, key: str) -> dict[int, list[float]]:
