@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -39,21 +39,28 @@ class Frame:
     cable: FloatArray
 
 
-@dataclass(frozen=True, eq=False)
-class MujocoCheckpoint:
-    """Everything that the rest of a simulation depends on, and what was recorded so far."""
+@dataclass(eq=False)
+class FlightState:
+    """What changes during a flight beside the physics, and what was recorded so far."""
 
-    physics: FloatArray
-    commands: int
-    clock: float
-    random: Any
     noise: FloatArray
     gust: FloatArray
-    finished: bool
     smallest_distance: float
-    largest_tension: float
-    frames: tuple[Frame, ...]
-    seconds: float
+    largest_tension: float = 0.0
+    commands: int = 0
+    clock: float = 0.0
+    finished: bool = True
+    frames: tuple[Frame, ...] = ()
+    seconds: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class MujocoCheckpoint:
+    """Everything that the rest of a simulation depends on; the random numbers' state is NumPy's."""
+
+    physics: FloatArray
+    random: Any
+    flight: FlightState
 
 
 class MujocoSimulation:
@@ -105,16 +112,14 @@ class MujocoSimulation:
         self._data = mujoco.MjData(built.model)
         rest = cable_at_rest(start, built.held, built.edge_lengths, self.material.radius)
         self._data.qpos[:] = (rest - built.origin).ravel()
-        self._commands = 0
-        self._clock = 0.0
         self._random = np.random.default_rng(self.disturbance.seed)
-        self._noise = self._random.normal(0, self.disturbance.noise, start.shape)
-        self._gust = self._random.normal(0, self.disturbance.gust, 2)
-        self._finished = True
-        self._smallest_distance = 2 * self.material.radius
-        self._largest_tension = 0.0
-        self._frames = [self._frame()]
-        self._seconds = time.perf_counter() - began
+        self._now = FlightState(
+            noise=self._random.normal(0, self.disturbance.noise, start.shape),
+            gust=self._random.normal(0, self.disturbance.gust, 2),
+            smallest_distance=2 * self.material.radius,
+        )
+        self._keep_frame()
+        self._now.seconds = time.perf_counter() - began
 
     @property
     def cable(self) -> FloatArray:
@@ -136,12 +141,12 @@ class MujocoSimulation:
     @property
     def time(self) -> float:
         """Since the start [s]."""
-        return self._commands * CONTROL
+        return self._now.commands * CONTROL
 
     @property
     def clock(self) -> float:
         """Time of the plan that the robots are at [s]."""
-        return self._clock
+        return self._now.clock
 
     def follow(self, positions: FloatArray, interval: float) -> bool:
         began = time.perf_counter()
@@ -158,93 +163,72 @@ class MujocoSimulation:
         velocities = np.diff(positions, axis=0) / interval
         duration = len(velocities) * interval
         passed = mark = 0.0
-        marked_at = self._commands
-        started_at = self._clock
-        self._finished = False
+        marked_at = self._now.commands
+        started_at = self._now.clock
+        self._now.finished = False
         while passed < duration - 1e-9:
             k = min(int(passed / interval), len(velocities) - 1)
             setpoints = positions[k] + (passed - k * interval) * velocities[k]
             rate = self._fly(setpoints, velocities[k])
             passed = min(duration, passed + rate * CONTROL)
-            self._clock = started_at + passed
-            if self._commands % FRAME == 0:
-                self._frames.append(self._frame())
+            self._now.clock = started_at + passed
+            if self._now.commands % FRAME == 0:
+                self._keep_frame()
             if passed - mark >= PROGRESS:
-                mark, marked_at = passed, self._commands
-            if (self._commands - marked_at) * CONTROL > STALL or not self._is_sound():
+                mark, marked_at = passed, self._now.commands
+            if (self._now.commands - marked_at) * CONTROL > STALL or not self._is_sound():
                 break
         else:
-            self._finished = True
-        self._seconds += time.perf_counter() - began
-        return self._finished
+            self._now.finished = True
+        self._now.seconds += time.perf_counter() - began
+        return self._now.finished
 
     def pull(self, velocities: FloatArray, goes_on: Callable[[FloatArray], bool]) -> bool:
         began = time.perf_counter()
         yields = ~velocities.any(axis=1)
         setpoints = self.robots
-        mark, marked_at = self._clock, self._commands
-        self._finished = True
+        mark, marked_at = self._now.clock, self._now.commands
+        self._now.finished = True
         while goes_on(self.robots):
             setpoints[yields, :2] = self.robots[yields, :2]
             rate = self._fly(setpoints, velocities)
             setpoints += rate * CONTROL * velocities
-            self._clock += rate * CONTROL
-            if self._commands % FRAME == 0:
-                self._frames.append(self._frame())
-            if self._clock - mark >= PROGRESS:
-                mark, marked_at = self._clock, self._commands
-            if (self._commands - marked_at) * CONTROL > STALL or not self._is_sound():
-                self._finished = False
+            self._now.clock += rate * CONTROL
+            if self._now.commands % FRAME == 0:
+                self._keep_frame()
+            if self._now.clock - mark >= PROGRESS:
+                mark, marked_at = self._now.clock, self._now.commands
+            if (self._now.commands - marked_at) * CONTROL > STALL or not self._is_sound():
+                self._now.finished = False
                 break
-        self._seconds += time.perf_counter() - began
-        return self._finished
+        self._now.seconds += time.perf_counter() - began
+        return self._now.finished
 
     def checkpoint(self) -> MujocoCheckpoint:
         kind = self._mujoco.mjtState.mjSTATE_INTEGRATION
         physics = np.empty(self._mujoco.mj_stateSize(self._model, kind))
         self._mujoco.mj_getState(self._model, self._data, physics, kind)
-        return MujocoCheckpoint(
-            physics,
-            self._commands,
-            self._clock,
-            self._random.bit_generator.state,
-            self._noise,
-            self._gust,
-            self._finished,
-            self._smallest_distance,
-            self._largest_tension,
-            tuple(self._frames),
-            self._seconds,
-        )
+        return MujocoCheckpoint(physics, self._random.bit_generator.state, replace(self._now))
 
     def restore(self, checkpoint: MujocoCheckpoint) -> None:
-        """Go back to a checkpoint of this simulation; what follows is what would have followed."""
         kind = self._mujoco.mjtState.mjSTATE_INTEGRATION
         self._mujoco.mj_resetData(self._model, self._data)  # forgets MuJoCo's warnings
         self._mujoco.mj_setState(self._model, self._data, checkpoint.physics, kind)
-        self._commands = checkpoint.commands
-        self._clock = checkpoint.clock
         self._random.bit_generator.state = checkpoint.random
-        self._noise = checkpoint.noise
-        self._gust = checkpoint.gust
-        self._finished = checkpoint.finished
-        self._smallest_distance = checkpoint.smallest_distance
-        self._largest_tension = checkpoint.largest_tension
-        self._frames = list(checkpoint.frames)
-        self._seconds = checkpoint.seconds
+        self._now = replace(checkpoint.flight)
 
     def record(self) -> FlightRecord:
         """What happened since the start."""
         return FlightRecord(
-            np.array([frame.time for frame in self._frames]),
-            np.array([frame.clock for frame in self._frames]),
-            np.array([frame.cable for frame in self._frames]),
+            np.array([frame.time for frame in self._now.frames]),
+            np.array([frame.clock for frame in self._now.frames]),
+            np.array([frame.cable for frame in self._now.frames]),
             self.held,
-            self._finished,
-            self._smallest_distance,
-            self._largest_tension,
+            self._now.finished,
+            self._now.smallest_distance,
+            self._now.largest_tension,
             self.disturbance,
-            self._seconds,
+            self._now.seconds,
         )
 
     def _fly(self, setpoints: FloatArray, velocities: FloatArray) -> float:
@@ -254,12 +238,12 @@ class MujocoSimulation:
         lag = float(np.sqrt((behind**2).sum(axis=1).max()))
         rate = min(1.0, max(0.0, 2 - 2 * lag / LAG))
         self._disturb()
-        commands = rate * velocities + GAIN * (behind + self._noise)
+        commands = rate * velocities + GAIN * (behind + self._now.noise)
         speeds = np.sqrt((commands**2).sum(axis=1, keepdims=True))
         commands *= self._speed / np.maximum(speeds, self._speed)
         data.ctrl[:] = commands.ravel()
         self._mujoco.mj_step(self._model, data, self._substeps)
-        self._commands += 1
+        self._now.commands += 1
         self._observe()
         return rate
 
@@ -268,22 +252,22 @@ class MujocoSimulation:
         disturbance = self.disturbance
         if disturbance.noise:
             keep = np.exp(-CONTROL / NOISE_TIME)
-            kick = self._random.normal(0, disturbance.noise, self._noise.shape)
-            self._noise = keep * self._noise + np.sqrt(1 - keep**2) * kick
+            kick = self._random.normal(0, disturbance.noise, self._now.noise.shape)
+            self._now.noise = keep * self._now.noise + np.sqrt(1 - keep**2) * kick
         if disturbance.gust:
             keep = np.exp(-CONTROL / GUST_TIME)
             kick = self._random.normal(0, disturbance.gust, 2)
-            self._gust = keep * self._gust + np.sqrt(1 - keep**2) * kick
+            self._now.gust = keep * self._now.gust + np.sqrt(1 - keep**2) * kick
         if disturbance.gust or any(disturbance.wind):
-            air = np.array([*(np.array(disturbance.wind) + self._gust), 0.0])
+            air = np.array([*(np.array(disturbance.wind) + self._now.gust), 0.0])
             drag = self._model.dof_damping.reshape(-1, 3)
             self._data.qfrc_applied[:] = (drag * air).ravel()
 
     def _observe(self) -> None:
         data = self._data
         if data.ne:
-            self._largest_tension = max(
-                self._largest_tension, -float(data.efc_force[: data.ne].min())
+            self._now.largest_tension = max(
+                self._now.largest_tension, -float(data.efc_force[: data.ne].min())
             )
         if data.ncon:
             contact = data.contact
@@ -291,14 +275,14 @@ class MujocoSimulation:
             strands = np.abs(elements[:, 0] - elements[:, 1]) > 2
             if strands.any():
                 nearest = float(contact.dist[strands].min()) + 2 * self.material.radius
-                self._smallest_distance = min(self._smallest_distance, nearest)
+                self._now.smallest_distance = min(self._now.smallest_distance, nearest)
 
     def _is_sound(self) -> bool:
         """Whether numbers are finite and no contact was left out; else strands may have passed."""
         if np.isfinite(self._data.qpos).all() and not self._data.warning.number.any():
             return True
-        self._smallest_distance = 0.0
+        self._now.smallest_distance = 0.0
         return False
 
-    def _frame(self) -> Frame:
-        return Frame(self.time, self._clock, self.cable)
+    def _keep_frame(self) -> None:
+        self._now.frames += (Frame(self.time, self.clock, self.cable),)
