@@ -13,7 +13,7 @@ from knotopt.diagram.grid import GridDiagram
 from knotopt.diagram.reading import read_grid
 from knotopt.errors import FileFormatError, OutputError
 from knotopt.files import check_folder, write_atomically, write_folder
-from tests.strategies import diagrams
+from tests.helpers.strategies import diagrams
 
 
 def csv_of(lines: object) -> str:

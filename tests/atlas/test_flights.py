@@ -24,8 +24,8 @@ from knotopt.cable.cable import Cable
 from knotopt.catalogue.lookup import find_knot
 from knotopt.errors import MissingExtraError, RequirementError
 from knotopt.sim.trials import wilson_interval
-from tests.conftest import Cli
-from tests.small_atlas import LIST, Replay, contents
+from tests.helpers.command_line import Cli
+from tests.helpers.small_atlas import LIST, Replay, contents
 
 Supports = tuple[int, ...]
 SETTINGS = Settings(span=True, check=0, physics=True)

@@ -15,7 +15,7 @@ import pytest
 from formulations import probe
 from knotopt.cli.output import print_table
 from knotopt.tables.table1 import NOTE
-from tests.conftest import Cli
+from tests.helpers.command_line import Cli
 
 HEAVY = ("numpy", "scipy", "networkx", "matplotlib", "cvxpy", "ortools", "casadi", "highspy")
 

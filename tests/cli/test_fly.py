@@ -17,7 +17,7 @@ from knotopt.flight.plan import FlightPlan
 from knotopt.flight.planner import FlightPlanner, plan_flight
 from knotopt.flight.store import read_plan
 from knotopt.mission import alternatives
-from tests.conftest import Cli
+from tests.helpers.command_line import Cli
 
 FILES = {
     "check.json",

@@ -11,8 +11,8 @@ from typing import Any
 
 import pytest
 
-from tests.conftest import Cli
-from tests.shown import commands, expect_shown
+from tests.helpers.command_line import Cli
+from tests.helpers.console_blocks import commands, expect_shown
 
 
 def test_solve(cli: Cli, tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from knotopt.rehearsal import cut_off
 from knotopt.rehearsal.cut_off import FlightTest
 from knotopt.sim.judge import Outcome, Verdict
 from knotopt.supports.minimal import MinimalSupports
-from tests.conftest import Cli
+from tests.helpers.command_line import Cli
 
 TIED = Verdict(Outcome.TIED, "3_1", True, True, "1 - t + t^2")
 LOST = Verdict(Outcome.WRONG_KNOT, "unknot", False, True, "1")

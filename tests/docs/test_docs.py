@@ -15,8 +15,8 @@ from pathlib import Path
 import pytest
 
 import knotopt
-from tests.conftest import Cli
-from tests.shown import commands, expect_shown
+from tests.helpers.command_line import Cli
+from tests.helpers.console_blocks import commands, expect_shown
 
 ROOT = Path(__file__).parents[2]
 PAGES = sorted((ROOT / "docs").rglob("*.md"))
@@ -92,7 +92,7 @@ def _scratch(folder: Path, page: Path) -> dict[str, str]:
                 "tests/supports/test_solving.py::test_instances_that_need_no_solver",
             ],
         ),
-        ("family", ["knotopt/diagram/families.py", "tests/test_twist.py"]),
+        ("family", ["knotopt/diagram/families.py", "tests/diagram/test_twist.py"]),
     ],
 )
 def test_steps_of_a_how_to(page: str, tests: list[str], tmp_path: Path) -> None:

@@ -23,7 +23,7 @@ from knotopt.export.stretch import TOLERANCE
 from knotopt.export.waypoints import read_waypoints, waypoints_csv
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan
-from tests.smooth_flight import AMPLE, flight
+from tests.helpers.smooth_flight import AMPLE, flight
 
 
 class Reader:

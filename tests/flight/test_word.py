@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from knotopt import Cable, shipped_knots
 from knotopt.arrays import FloatArray
 from knotopt.flight.word import NUDGE, Letter, span_words
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 
 def cross(a: FloatArray, b: FloatArray) -> float:

@@ -21,7 +21,7 @@ from knotopt.mission.folder import NAMES, flight_files, flight_pictures, why_kep
 from knotopt.mission.result import UNDISTURBED, FlightResult, examined, flown_content
 from knotopt.rehearsal.rehearse import Rehearsal
 from knotopt.sim.judge import Outcome, Verdict
-from tests.small_flight import small_plan, small_record
+from tests.helpers.small_flight import small_plan, small_record
 
 PLAN = small_plan()
 RECORD = small_record(PLAN)

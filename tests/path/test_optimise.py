@@ -31,7 +31,7 @@ from knotopt.path.remesh import remesh
 from knotopt.path.result import TOLERANCE, examine, span_name
 from knotopt.path.triangulation import triangulate
 from knotopt.verify.crossings import curve_crossings, grid_code
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 ROWS = ("3", "4", "5", "7 Var1", "7 Var2", "9")
 

@@ -20,7 +20,7 @@ from knotopt.plot.cable import GAP, draw_cable, draw_regions, draw_robots
 from knotopt.plot.figures import before_after_figure, cable_figure, save_figure
 from knotopt.supports.lcf import best_cut, lcf
 from knotopt.supports.regions import Regions
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 EIGHT = best_cut(shipped_knots()["8_19"].diagram)
 

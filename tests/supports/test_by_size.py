@@ -27,7 +27,7 @@ from knotopt.supports.minimal import all_minimal, minimal_supports
 from knotopt.supports.requirements import Formulation, Requirements
 from knotopt.verify.opening import check_opening
 from knotopt.verify.span import check_span
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 Supports = tuple[int, ...]
 

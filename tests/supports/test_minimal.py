@@ -26,7 +26,7 @@ from knotopt.supports.team import compile_team
 from knotopt.verify.opening import check_opening, threading_cells
 from knotopt.verify.regions import define_regions, lay
 from knotopt.verify.span import check_span
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 LENGTHS = st.none() | st.sampled_from([1.0, 1.5, 2.0, 3.0, 4.5, 6.0])
 

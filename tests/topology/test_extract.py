@@ -24,9 +24,9 @@ from knotopt.topology.closure import brought_together, closed_gauss, closed_pd
 from knotopt.topology.extract import PolylineError, extract_state
 from knotopt.topology.state import RopeState
 from knotopt.verify.crossings import curve_crossings
-from tests.outside import seifert_invariants
-from tests.polylines import by_verifier, state_of
-from tests.strategies import cables
+from tests.helpers.polylines import by_verifier, state_of
+from tests.helpers.snappy_invariants import seifert_invariants
+from tests.helpers.strategies import cables
 
 Points = FloatArray
 

@@ -17,7 +17,7 @@ from knotopt.flight.plan import FlightPlan
 from knotopt.viewer.colours import ramp
 from knotopt.viewer.packing import resampled
 from knotopt.viewer.page import flight_page
-from tests.small_flight import small_plan, small_record
+from tests.helpers.small_flight import small_plan, small_record
 
 PLAN = small_plan()
 RECORD = small_record(PLAN)
