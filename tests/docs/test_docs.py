@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -34,17 +35,40 @@ def test_python_on_the_pages(page: Path, tmp_path: Path, monkeypatch: pytest.Mon
     assert tried and not failed
 
 
-@pytest.mark.slow
-def test_commands_of_the_tutorial(
-    cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def shown_commands() -> list[Any]:
+    """Each command of the README and the pages, and what is shown under it.
+
+    How-tos change the package first. What is simulated is slow.
+    """
+    pages = [page for page in (ROOT / "README.md", *PAGES) if page.parent.name != "howto"]
+    return [
+        pytest.param(
+            *(command, shown),
+            marks=[pytest.mark.slow] if "--sim" in command else [],
+            id=f"{page.stem}: {command}",
+        )
+        for page in pages
+        for command, shown in commands(page)
+    ]
+
+
+@pytest.mark.parametrize(("command", "shown"), shown_commands())
+def test_commands_print_what_is_shown(
+    cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: str, shown: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    told = list(commands(ROOT / "docs/tutorial.md"))
-    assert len(told) == 8
-    for command, shown in told:
-        _, out, _ = cli(*shlex.split(command))
-        expect_shown(command, shown, out)
-    assert (tmp_path / "trefoil/report.html").exists()
+    arguments = shlex.split(command)
+    _, out, err = cli(*arguments)
+    expect_shown(command, shown, out)
+    assert not err
+    for option in ("--out", "--plot"):
+        if option in arguments:
+            assert Path(arguments[arguments.index(option) + 1]).exists()
+
+
+def test_commands_are_found() -> None:
+    assert len(list(commands(ROOT / "README.md"))) >= 3
+    assert len(list(commands(ROOT / "docs/tutorial.md"))) == 8
 
 
 def _scratch(folder: Path, page: Path) -> dict[str, str]:
