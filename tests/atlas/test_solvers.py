@@ -161,6 +161,7 @@ def test_resumed(tmp_path: Path) -> None:
     assert SOLVER_TIMES in contents(tmp_path / "half")
 
 
+@pytest.mark.slow
 def test_killed_run_ends_like_others(tmp_path: Path) -> None:
     knots = ("3_1", "4_1", "5_1")
     options = ("--jobs", 1, "--check", 2, "--solvers", "maxsat,highs")

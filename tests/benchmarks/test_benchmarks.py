@@ -17,6 +17,8 @@ from benchmarks.compare import ROOT, compare, fastest
 from benchmarks.registry import BENCHMARKS, Benchmark, register
 from knotopt.errors import FileFormatError, OutputError
 
+in_a_clone = pytest.mark.skipif(not (ROOT / ".git").exists(), reason="not in a clone")
+
 
 def records(path: Path) -> list[dict[str, Any]]:
     return [json.loads(line) for line in path.read_text().splitlines()]
@@ -168,9 +170,9 @@ def test_a_partial_run_of_another_kind_is_kept(tmp_path: Path) -> None:
     assert [row["result"] for row in rows] == [{"k": 0}, {"k": 1}]
 
 
+@in_a_clone
+@pytest.mark.slow
 def test_a_revision_is_compared_with_this_tree() -> None:
-    if not (ROOT / ".git").exists():
-        pytest.skip("not in a clone")
     worktrees = ["git", "-C", str(ROOT), "worktree", "list"]
     before = subprocess.run(worktrees, capture_output=True, check=True).stdout
     chosen = [BENCHMARKS["startup"], BENCHMARKS["lcf_catalogue"]]
@@ -180,8 +182,12 @@ def test_a_revision_is_compared_with_this_tree() -> None:
     assert set(costs) == {("startup", "seconds"), ("lcf_catalogue", "ms_per_cut")}
     assert all(0.02 < each.least <= each.mean <= each.most < 50 for each in found.ratios)
     assert subprocess.run(worktrees, capture_output=True, check=True).stdout == before
+
+
+@in_a_clone
+def test_a_revision_that_there_is_not() -> None:
     with pytest.raises(ValueError, match="no revision 'nothing'"):
-        compare("nothing", chosen, smoke=True)
+        compare("nothing", [BENCHMARKS["startup"]], smoke=True)
 
 
 def test_what_costs_and_what_counts() -> None:

@@ -75,7 +75,7 @@ def test_the_catalogue_keeps_its_diagrams() -> None:
 
 
 @given(cables(3, 6), st.data())
-@settings(max_examples=60)
+@settings(max_examples=40)
 def test_any_supports_of_any_cable_keep_the_diagram(cable: Cable, data: st.DataObject) -> None:
     count = len(cable.path)
     supports = data.draw(st.sets(st.integers(2, count - 1)).map(lambda s: tuple(sorted(s))))

@@ -29,6 +29,8 @@ from knotopt.supports.requirements import Requirements
 from knotopt.supports.selection import choose_supports
 from knotopt.verify.flight_limits import LimitsReport
 
+pytestmark = pytest.mark.xdist_group("rehearse")  # of which one process flies the trefoil
+
 
 def measured(plan: FlightPlan) -> LimitsReport:
     return examine_plan(plan).limits
@@ -89,6 +91,7 @@ def test_a_file_that_starts_farther_out_flies_the_same_route() -> None:
     assert flown().planner.spacing == before.spacing  # a copy is changed by itself
 
 
+@pytest.mark.slow
 def test_robots_that_came_too_near_fly_the_route_in_a_longer_file() -> None:
     run = flown()
     planner = run.planner.copy()
