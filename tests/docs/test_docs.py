@@ -110,7 +110,7 @@ def _scratch(folder: Path, page: Path) -> dict[str, str]:
                 "formulations/backends/__init__.py",
                 "tests/supports/test_minimal.py::test_every_solver_gives_the_same_canonical_set",
                 "tests/formulations/test_instances.py::test_all_solvers_find_the_optimum",
-                "tests/supports/test_solving.py::test_instances_that_need_no_solver",
+                "tests/formulations/test_backends.py::test_instances_that_need_no_solver",
             ],
         ),
         ("family", ["knotopt/diagram/families.py", "tests/diagram/test_twist.py"]),
