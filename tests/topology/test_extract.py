@@ -104,9 +104,9 @@ def invariants_of(link: spherogram.Link) -> tuple[tuple[int, ...], int]:
 
 
 def test_closed_curves_are_snappys_knots() -> None:
-    found = [knot_agreed_with_snappy(seed) for seed in range(150)]
-    assert found.count(None) < 5
-    assert sum(knot not in {None, (1,)} for knot in found) > 20
+    found = [knot_agreed_with_snappy(seed) for seed in range(100)]
+    assert found.count(None) < 4
+    assert sum(knot not in {None, (1,)} for knot in found) > 13
 
 
 @pytest.mark.slow
