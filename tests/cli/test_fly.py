@@ -167,6 +167,7 @@ def test_an_unknown_knot(cli: Cli) -> None:
     assert status == 1 and "no knot is named '99_9'" in err
 
 
+@pytest.mark.slow
 def test_a_flight_in_physics(cli: Cli, tmp_path: Path) -> None:
     pytest.importorskip("mujoco")
     folder = tmp_path / "trefoil"
