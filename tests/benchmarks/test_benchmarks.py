@@ -200,18 +200,24 @@ def test_a_partial_run_of_another_kind_is_kept(tmp_path: Path) -> None:
     assert [row["result"] for row in rows] == [{"k": 0}, {"k": 1}]
 
 
+def worktrees() -> list[str]:
+    """The folders of the clone's working trees."""
+    command = ["git", "-C", str(ROOT), "worktree", "list", "--porcelain"]
+    listed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    return [line for line in listed.splitlines() if line.startswith("worktree ")]
+
+
 @in_a_clone
 @pytest.mark.slow
 def test_a_revision_is_compared_with_this_tree() -> None:
-    worktrees = ["git", "-C", str(ROOT), "worktree", "list"]
-    before = subprocess.run(worktrees, capture_output=True, check=True).stdout
+    before = worktrees()
     chosen = [BENCHMARKS["startup"], BENCHMARKS["lcf_catalogue"]]
     found = compare("HEAD", chosen, smoke=True, repeats=1)
     assert (found.missing, found.changed) == ((), ())
     costs = {(each.benchmark, each.cost): each for each in found.ratios}
     assert set(costs) == {("startup", "seconds"), ("lcf_catalogue", "ms_per_cut")}
     assert all(0.02 < each.least <= each.mean <= each.most < 50 for each in found.ratios)
-    assert subprocess.run(worktrees, capture_output=True, check=True).stdout == before
+    assert worktrees() == before
 
 
 @in_a_clone
