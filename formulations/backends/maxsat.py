@@ -79,6 +79,7 @@ def _compute(instance: Instance, hard: list[list[int]], limits: Limits) -> Answe
                 if 0 < literal <= len(values):
                     values[literal - 1] = 1
             return Answer(Status.OPTIMAL, "optimum", values, solver.cost)
-        if solver.oracle.get_status() is None:
+        # Between two calls, a limit leaves the oracle with the last one's answer: a core.
+        if solver.interrupted or solver.oracle.get_status() is None:
             return Answer(Status.UNKNOWN, "time limit", bound=solver.cost)
         return Answer(Status.INFEASIBLE, "unsatisfiable")

@@ -30,9 +30,9 @@ from knotopt.sim.judge import Outcome, Verdict
 from knotopt.sim.trials import Flight, wilson_interval
 from knotopt.supports.lcf import lcf
 from knotopt.tables.methods import OPENING
-from tests.conftest import Cli
-from tests.small_atlas import LIST, Replay, contents
-from tests.small_flight import small_plan, small_record
+from tests.helpers.command_line import Cli
+from tests.helpers.small_atlas import LIST, Replay, contents
+from tests.helpers.small_flight import small_plan, small_record
 
 Supports = tuple[int, ...]
 SETTINGS = Settings(span=True, check=0, physics=True)

@@ -39,7 +39,7 @@ from knotopt.document.markdown import markdown
 from knotopt.document.model import Table
 from knotopt.errors import OutputError
 from knotopt.verify.opening import check_opening
-from tests.typesetting import typeset
+from tests.helpers.typesetting import typeset
 
 NAMES = ("3_1", "5_1", "5_2", "8_1", "8_19", "8_20", "8_21")
 

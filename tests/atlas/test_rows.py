@@ -37,12 +37,12 @@ from knotopt.supports.registry import FORMULATIONS
 from knotopt.supports.search import best_supports
 from knotopt.supports.span import SPAN
 from knotopt.tables.comparison import compare
-from tests.small_atlas import LIST, SETTINGS, Replay, contents
+from tests.helpers.small_atlas import LIST, SETTINGS, Replay, contents
 
 
-def test_rows_agree_with_compare_and_search(results: dict[int, KnotResult]) -> None:
+def test_rows_agree_with_compare_and_search(measured: dict[int, KnotResult]) -> None:
     for knot in LIST[:3]:
-        rows = results[knot.number].rows
+        rows = measured[knot.number].rows
         assert [row["cut"] for row in rows] == list(OUTER_CUTS)
         best = compare(
             knot.knot, knot.diagram, cuts=[Cable(knot.diagram, c).cut for c in OUTER_CUTS]
@@ -63,7 +63,7 @@ def test_rows_agree_with_compare_and_search(results: dict[int, KnotResult]) -> N
         assert {row["crossings"] for row in rows} == {best["crossings"]}
 
 
-def test_both_threading_modes_and_span(results: dict[int, KnotResult]) -> None:
+def test_both_threading_modes_and_span(measured: dict[int, KnotResult]) -> None:
     knot = LIST[3]
     result = measure_knot(knot, Settings(span=True, check=1))
     for row in result.rows:
@@ -76,7 +76,7 @@ def test_both_threading_modes_and_span(results: dict[int, KnotResult]) -> None:
         assert row["over_under_robots"] <= (row["opening_robots"] or 0)
         assert row["span_status"] == row["opening_status"] == "optimal"
         assert row["checked"]
-    plain = results[knot.number].rows
+    plain = measured[knot.number].rows
     assert [row | _no_span() for row in result.rows] == list(plain)
 
 
@@ -90,18 +90,18 @@ def _no_span() -> dict[str, None]:
     return {name: None for name in names(FILES[ATLAS]) if name.startswith("span_")}
 
 
-def test_lcf_below_means_that_no_open_set_is_as_small(results: dict[int, KnotResult]) -> None:
-    rows = [row for result in results.values() for row in result.rows]
+def test_lcf_below_means_that_no_open_set_is_as_small(measured: dict[int, KnotResult]) -> None:
+    rows = [row for result in measured.values() for row in result.rows]
     assert {row["lcf_below"] for row in rows} == {True, False}
     for row in rows:
         assert row["lcf_below"] == (row["lcf_robots"] < (row["opening_robots"] or 0))
         assert not (row["lcf_below"] and row["lcf_open"])
 
 
-def test_checkers_agree_and_notice_what_is_wrong(results: dict[int, KnotResult]) -> None:
-    rows = [row for result in results.values() for row in result.rows]
+def test_checkers_agree_and_notice_what_is_wrong(measured: dict[int, KnotResult]) -> None:
+    rows = [row for result in measured.values() for row in result.rows]
     assert all(row["checked"] for row in rows)
-    row = results[1].rows[0]
+    row = measured[1].rows[0]
     cable = Cable(LIST[0].diagram, row["cut"])
     for wrong in (
         row | {"lcf_open": not row["lcf_open"]},
@@ -150,14 +150,14 @@ def test_paths_are_rows_of_their_own(tmp_path: Path) -> None:
     assert "casadi" in read_manifest(tmp_path / "run").versions
 
 
-def test_files_of_a_whole_run(whole: Path, results: dict[int, KnotResult]) -> None:
+def test_files_of_a_whole_run(whole: Path, measured: dict[int, KnotResult]) -> None:
     assert sorted(path.name for path in whole.iterdir()) == [ATLAS, KNOTS, MANIFEST, TIMES]
     atlas, times = read_rows(whole, ATLAS), read_rows(whole, TIMES)
     rows = [_tuples(row) for row in atlas.to_pylist()]
-    assert rows == [row for number in sorted(results) for row in results[number].rows]
+    assert rows == [row for number in sorted(measured) for row in measured[number].rows]
     for column in ("number", "knot", "cut"):
         assert times[column] == atlas[column]
-    assert {len(result.times) for result in results.values()} == {8}
+    assert {len(result.times) for result in measured.values()} == {8}
     listed = [KnotRow(**_tuples(row)) for row in read_rows(whole, KNOTS).to_pylist()]
     assert tuple(listed) == LIST
     assert tuple(field.name for field in fields(KnotRow)) == names(FILES[KNOTS])
@@ -177,13 +177,15 @@ def _tuples(row: dict[str, Any]) -> dict[str, Any]:
     return {key: tuple(v) if isinstance(v, list) else v for key, v in row.items()}
 
 
-def test_a_resumed_run_is_the_same(half: Path, whole: Path, results: dict[int, KnotResult]) -> None:
+def test_a_resumed_run_is_the_same(
+    half: Path, whole: Path, measured: dict[int, KnotResult]
+) -> None:
     assert [path.name for path in (half / PARTS).iterdir()] == ["part-00000001.parquet"]
     (half / PARTS / ".part-00000002.parquet.abc.tmp").write_bytes(b"torn")
     with pytest.raises(OutputError, match="is not complete"):
         read_rows(half, ATLAS)
     seen: list[Progress] = []
-    engine = Replay(results)
+    engine = Replay(measured)
     done = run_atlas(half, LIST, SETTINGS, engine, seen.append)
     assert engine.asked == [2, 1]
     assert seen[0] == Progress(5, 3, 0)
@@ -192,7 +194,7 @@ def test_a_resumed_run_is_the_same(half: Path, whole: Path, results: dict[int, K
 
 
 def test_parts_are_written_as_time_goes(
-    tmp_path: Path, results: dict[int, KnotResult], monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, measured: dict[int, KnotResult], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(running, "SHORTEST", 0.0)
     monkeypatch.setattr(running, "SHARE", 0.0)
@@ -201,22 +203,22 @@ def test_parts_are_written_as_time_goes(
         tmp_path / "run",
         LIST,
         SETTINGS,
-        Replay(results),
+        Replay(measured),
         lambda _: parts.append(len(list((tmp_path / "run").glob("parts/*")))),
     )
     assert parts == [0, 0, 1, 2, 3, 4]
 
 
-def test_a_complete_run_is_left_as_it_is(whole: Path, results: dict[int, KnotResult]) -> None:
+def test_a_complete_run_is_left_as_it_is(whole: Path, measured: dict[int, KnotResult]) -> None:
     before = contents(whole)
-    engine = Replay(results)
+    engine = Replay(measured)
     assert run_atlas(whole, LIST, SETTINGS, engine) == Progress(5, 5, 0)
     assert engine.asked == []
     assert contents(whole) == before
 
 
 def test_killed_between_the_final_files(
-    half: Path, whole: Path, results: dict[int, KnotResult], monkeypatch: pytest.MonkeyPatch
+    half: Path, whole: Path, measured: dict[int, KnotResult], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from knotopt.atlas import store
 
@@ -230,9 +232,9 @@ def test_killed_between_the_final_files(
     with monkeypatch.context() as patch:
         patch.setattr(store, "write_atomically", killed)
         with pytest.raises(KeyboardInterrupt):
-            run_atlas(half, LIST, SETTINGS, Replay(results))
+            run_atlas(half, LIST, SETTINGS, Replay(measured))
     assert (half / TIMES).exists()
-    engine = Replay(results)
+    engine = Replay(measured)
     run_atlas(half, LIST, SETTINGS, engine)
     assert engine.asked == []
     assert contents(half) == contents(whole)

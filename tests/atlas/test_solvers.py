@@ -19,7 +19,7 @@ from formulations.solution import BackendError, Limits, Solution, Status
 from knotopt.atlas import solvers, store
 from knotopt.atlas.columns import FILES
 from knotopt.atlas.engine import Local
-from knotopt.atlas.measure import measure_knot
+from knotopt.atlas.measure import KnotResult, measure_knot
 from knotopt.atlas.report.performance import SOLVERS as STYLES
 from knotopt.atlas.report.report import report_document
 from knotopt.atlas.report.results import Results, read_results
@@ -41,9 +41,9 @@ from knotopt.atlas.store import read_manifest, read_rows
 from knotopt.document.columns import Row, names
 from knotopt.document.markdown import markdown
 from knotopt.errors import MissingExtraError, OutputError, RequirementError, SolverError
-from tests.cli import test_atlas as killing
-from tests.conftest import Cli
-from tests.small_atlas import LIST, SETTINGS, Replay, contents, measured
+from tests.helpers.atlas_process import ended, same_results, start, wait_for_parts
+from tests.helpers.command_line import Cli
+from tests.helpers.small_atlas import LIST, SETTINGS, Replay, contents
 
 EVERY = Settings(span=True, check=1, solvers=tuple(BACKENDS))
 
@@ -115,13 +115,15 @@ def test_without_solvers_a_folder_is_as_it_was(whole: Path) -> None:
     assert "Flights" not in titles
 
 
-def test_parts_with_lists_that_nobody_asked_for(half: Path, whole: Path) -> None:
+def test_parts_with_lists_that_nobody_asked_for(
+    half: Path, whole: Path, measured: dict[int, KnotResult]
+) -> None:
     """Parts of a run that was begun when each had a list of paths."""
     part = half / PARTS / "part-00000001.parquet"
     table = pq.read_table(part)
     table = table.append_column("paths", [[[]] * table.num_rows])
     part.write_bytes(store._to_bytes(table))
-    run_atlas(half, LIST, SETTINGS, Replay(measured()))
+    run_atlas(half, LIST, SETTINGS, Replay(measured))
     assert contents(half) == contents(whole)
 
 
@@ -159,20 +161,21 @@ def test_resumed(tmp_path: Path) -> None:
     assert SOLVER_TIMES in contents(tmp_path / "half")
 
 
-def test_killed_run_ends_like_others(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(killing, "NAMES", ["3_1", "4_1", "5_1"])
+@pytest.mark.slow
+def test_killed_run_ends_like_others(tmp_path: Path) -> None:
+    knots = ("3_1", "4_1", "5_1")
     options = ("--jobs", 1, "--check", 2, "--solvers", "maxsat,highs")
     whole, broken = tmp_path / "whole", tmp_path / "broken"
-    status, output, errors = killing.ended(whole, killing.start(whole, *options))
+    status, output, errors = ended(whole, start(whole, knots, *options))
     assert (status, errors) == (0, "")
     assert "highs 24 of 24, maxsat 24 of 24" in output
-    process = killing.start(broken, *options, slow=True)
-    killing.wait_for_parts(broken, 1, process)
+    process = start(broken, knots, *options, pauses=True)
+    wait_for_parts(broken, 1, process)
     process.send_signal(signal.SIGKILL)
-    assert killing.ended(broken, process)[0] == -signal.SIGKILL
+    assert ended(broken, process)[0] == -signal.SIGKILL
     assert not (broken / ATLAS).exists()
-    assert killing.ended(broken, killing.start(broken, *options))[0] == 0
-    assert killing.same_results(broken, whole)
+    assert ended(broken, start(broken, knots, *options))[0] == 0
+    assert same_results(broken, whole)
     assert (broken / SOLVERS).read_bytes() == (whole / SOLVERS).read_bytes()
     assert read_rows(broken, SOLVER_TIMES).num_rows == 48
 

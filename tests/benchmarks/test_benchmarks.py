@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import platform
+import shutil
 import subprocess
 from pathlib import Path
 from typing import Any
@@ -13,26 +14,42 @@ from typer.testing import CliRunner
 
 from benchmarks import __main__ as harness
 from benchmarks import headlines, results
+from benchmarks.__main__ import run_benchmark
 from benchmarks.compare import ROOT, compare, fastest
 from benchmarks.plots import lcf
 from benchmarks.plots.versions import write_parts
 from benchmarks.registry import BENCHMARKS, Benchmark, register
 from knotopt.errors import FileFormatError, OutputError
 
+in_a_clone = pytest.mark.skipif(not (ROOT / ".git").exists(), reason="not in a clone")
+SIMULATED = {"physics", "physics_optimal", "physics_tight"}  # flights of half a minute
+
 
 def records(path: Path) -> list[dict[str, Any]]:
     return [json.loads(line) for line in path.read_text().splitlines()]
 
 
-def test_every_benchmark_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    run = CliRunner().invoke(harness.app, ["run", "--smoke", "--out", str(tmp_path)])
+@pytest.mark.parametrize(
+    "names",
+    [
+        pytest.param(set(BENCHMARKS) - SIMULATED, id="computed"),
+        pytest.param(SIMULATED, id="simulated", marks=pytest.mark.slow),
+    ],
+)
+def test_every_benchmark_runs_and_is_drawn(
+    names: set[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Small runs of some, beside the results that are kept of the others."""
+    run = CliRunner().invoke(
+        harness.app, ["run", "--smoke", *sorted(names), "--out", str(tmp_path)]
+    )
     assert run.exit_code == 0, run.output
-    assert {path.stem for path in tmp_path.iterdir()} == set(BENCHMARKS)
-    header, *rows = records(tmp_path / "lcf_catalogue.jsonl")
-    assert header["smoke"] and header["machine"]["cores"]
-    assert rows[0]["case"] == {"knot": "3_1"} and set(rows[0]["result"]["robots"]) >= {"L+", "T-"}
-    listed = CliRunner().invoke(harness.app, ["list"]).output
-    assert all(name in listed for name in BENCHMARKS)
+    assert {path.stem for path in tmp_path.iterdir()} == names
+    for name in names:
+        header, *rows = records(tmp_path / f"{name}.jsonl")
+        assert header["smoke"] and header["machine"]["cores"] and rows
+    for name in set(BENCHMARKS) - names:
+        shutil.copy(results.RESULTS / f"{name}.jsonl", tmp_path)
     monkeypatch.setattr(results, "RESULTS", tmp_path)
     monkeypatch.setattr(lcf, "FIT_FROM", 0)
     drawn = CliRunner().invoke(harness.app, ["plot"])
@@ -44,9 +61,24 @@ def test_every_benchmark_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
     assert drawn.exit_code == 0, drawn.output
     assert len(linked) > 5 and all((tmp_path / name).read_bytes()[:4] == b"%PDF" for name in linked)
 
-    kept = CliRunner().invoke(harness.app, ["record"])  # of smoke runs there is nothing to keep
+
+def test_cases_and_results_of_a_small_run(tmp_path: Path) -> None:
+    run_benchmark(BENCHMARKS["lcf_catalogue"], tmp_path, smoke=True)
+    _, *rows = records(tmp_path / "lcf_catalogue.jsonl")
+    assert rows[0]["case"] == {"knot": "3_1"} and set(rows[0]["result"]["robots"]) >= {"L+", "T-"}
+
+
+def test_of_small_runs_nothing_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    run_benchmark(BENCHMARKS["lcf_catalogue"], tmp_path, smoke=True)
+    monkeypatch.setattr(results, "RESULTS", tmp_path)
+    kept = CliRunner().invoke(harness.app, ["record"])
     assert kept.exit_code == 2 and "no results of version" in kept.output
     assert not (tmp_path / headlines.FILE).exists()
+
+
+def test_every_benchmark_is_listed() -> None:
+    listed = CliRunner().invoke(harness.app, ["list"]).output
+    assert all(name in listed for name in BENCHMARKS)
 
 
 def test_the_processor_is_named_where_it_is_known(
@@ -136,13 +168,13 @@ def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path: Path) -> None:
 
     counting = Benchmark("counting", "", lambda _: ({"k": k} for k in range(4)), measure)
     with pytest.raises(KeyboardInterrupt):
-        harness.run_benchmark(counting, tmp_path)
+        run_benchmark(counting, tmp_path)
     partial = tmp_path / "counting.jsonl.partial"
     assert [path.name for path in tmp_path.iterdir()] == [partial.name]
     with partial.open("a") as stream:
         stream.write('{"case": {"k": 2}, "res')  # torn in the middle of a line
     stop_at = -1
-    final = harness.run_benchmark(counting, tmp_path)
+    final = run_benchmark(counting, tmp_path)
     assert measured == [0, 1, 2, 3]
     assert [row["result"]["square"] for row in records(final)[1:]] == [0, 1, 4, 9]
     assert not partial.exists()
@@ -156,38 +188,48 @@ def test_a_partial_run_of_another_kind_is_kept(tmp_path: Path) -> None:
     other = '{"benchmark": "counting"}\n{"case": {"k": 0}}\n'
     partial.write_text(other)
     with pytest.raises(OutputError, match="the beginning of another run"):
-        harness.run_benchmark(counting, tmp_path)
+        run_benchmark(counting, tmp_path)
     assert partial.read_text() == other
     for damage in (b"\xff\n", other.splitlines(keepends=True)[0].encode() + b"{torn}\n"):
         partial.write_bytes(damage)
         with pytest.raises(OutputError, match="remove the file"):
-            harness.run_benchmark(counting, tmp_path)
+            run_benchmark(counting, tmp_path)
         assert partial.read_bytes() == damage
     partial.unlink()
     header = {"benchmark": "counting", "smoke": False, "machine": harness.machine_facts()}
     partial.write_text(json.dumps(header) + "\n{torn}\n")
     with pytest.raises(OutputError, match="line 2 is damaged"):
-        harness.run_benchmark(counting, tmp_path)
+        run_benchmark(counting, tmp_path)
     partial.unlink()
-    first, *rows = records(harness.run_benchmark(counting, tmp_path))
+    first, *rows = records(run_benchmark(counting, tmp_path))
     assert first["benchmark"] == "counting" and "machine" in first
     assert [row["result"] for row in rows] == [{"k": 0}, {"k": 1}]
 
 
+def worktrees() -> list[str]:
+    """The folders of the clone's working trees."""
+    command = ["git", "-C", str(ROOT), "worktree", "list", "--porcelain"]
+    listed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    return [line for line in listed.splitlines() if line.startswith("worktree ")]
+
+
+@in_a_clone
+@pytest.mark.slow
 def test_a_revision_is_compared_with_this_tree() -> None:
-    if not (ROOT / ".git").exists():
-        pytest.skip("not in a clone")
-    worktrees = ["git", "-C", str(ROOT), "worktree", "list"]
-    before = subprocess.run(worktrees, capture_output=True, check=True).stdout
+    before = worktrees()
     chosen = [BENCHMARKS["startup"], BENCHMARKS["lcf_catalogue"]]
     found = compare("HEAD", chosen, smoke=True, repeats=1)
     assert (found.missing, found.changed) == ((), ())
     costs = {(each.benchmark, each.cost): each for each in found.ratios}
     assert set(costs) == {("startup", "seconds"), ("lcf_catalogue", "ms_per_cut")}
     assert all(0.02 < each.least <= each.mean <= each.most < 50 for each in found.ratios)
-    assert subprocess.run(worktrees, capture_output=True, check=True).stdout == before
+    assert worktrees() == before
+
+
+@in_a_clone
+def test_a_revision_that_there_is_not() -> None:
     with pytest.raises(ValueError, match="no revision 'nothing'"):
-        compare("nothing", chosen, smoke=True)
+        compare("nothing", [BENCHMARKS["startup"]], smoke=True)
 
 
 def test_what_costs_and_what_counts() -> None:

@@ -17,7 +17,7 @@ from knotopt.catalogue.table1_grids import table1_grids
 from knotopt.diagram.families import torus_knot
 from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import CutError
-from tests.strategies import cables, diagrams
+from tests.helpers.strategies import cables, diagrams
 
 TREFOIL = torus_knot(2, 3)
 

@@ -19,14 +19,14 @@ from knotopt.cable.cut import crossing_free_cuts
 from knotopt.cable.notation import dt_code, gauss_code, pd_code
 from knotopt.catalogue.knots import PrimeKnot, shipped_knots
 from knotopt.diagram.families import random_knot, torus_knot
-from tests.outside import (
+from tests.helpers.snappy_invariants import (
     euler_characteristic,
     homology_ranks,
     invariants,
     link_of,
     seifert_invariants,
 )
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 KNOTS = shipped_knots()
 

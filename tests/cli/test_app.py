@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import importlib
 import importlib.metadata
 import json
@@ -16,8 +15,7 @@ import pytest
 from formulations import probe
 from knotopt.cli.app import COMMANDS
 from knotopt.cli.printing import print_table
-from knotopt.tables.table1 import NOTE
-from tests.conftest import Cli
+from tests.helpers.command_line import Cli
 
 HEAVY = ("numpy", "scipy", "networkx", "matplotlib", "cvxpy", "ortools", "casadi", "highspy")
 
@@ -72,75 +70,6 @@ def test_drawings_where_only_ascii_is_known() -> None:
         check=True,
     )
     assert b"5 robots instead of 10" in run.stdout
-
-
-def test_table1_prints_the_table_and_the_note(cli: Cli) -> None:
-    status, out, _ = cli("table1")
-    assert status == 0
-    for row in cli.json("table1"):
-        cells = (
-            *row["row"].split(),
-            row["knot"],
-            row["cut"],
-            *(str(row[key]) for key in ("robots_before", "robots_after", "robots_after_paper")),
-            "yes" if row["lcf_open"] else "no",
-            str(row["opening_same_cut"]),
-            f"({row['opening_robots']})",
-            str(row["span_same_cut"]),
-            f"({row['span_robots']})",
-            "yes",
-        )
-        assert list(cells) in [line.split() for line in out.splitlines()]
-    assert " ".join(NOTE.split()) in " ".join(out.split())
-
-
-def test_table1_json_has_the_columns_of_the_csv(cli: Cli, tmp_path: Path) -> None:
-    rows = cli.json("table1")
-    assert [row["robots_after"] for row in rows] == [5, 5, 5, 7, 8, 6]
-    assert [row["robots_after_paper"] for row in rows] == [5, 5, 5, 7, 8, 6]
-    assert [row["robots_before"] for row in rows] == [10, 12, 14, 18, 18, 22]
-    assert [row["crossings"] for row in rows] == [3, 4, 5, 7, 7, 9]
-    assert rows[5]["reduction_percent"] == 72.7
-    assert [row["lcf_open"] for row in rows] == [False, False, False, False, True, False]
-    assert [row["opening_same_cut"] for row in rows] == [5, 5, 6, 12, 6, 6]
-    assert [row["opening_robots"] for row in rows] == [5, 5, 6, 12, 6, 5]
-    assert all(row["proven"] for row in rows)
-    status, out, _ = cli("table1", "--out", tmp_path)
-    assert status == 0 and "written:" in out
-    with (tmp_path / "table1.csv").open(newline="") as stream:
-        reader = csv.DictReader(stream)
-        stored = list(reader)
-        assert [*(reader.fieldnames or ()), "paths"] == list(rows[0])
-    assert [json.loads(row["supports"]) for row in stored] == [row["supports"] for row in rows]
-    markdown = (tmp_path / "table1.md").read_text()
-    assert markdown.count("\n| ") >= 6 and NOTE in markdown
-    figures = sorted(path.name for path in (tmp_path / "figures").iterdir())
-    assert len(figures) == 30 and "table1_7_Var1_7_2_minimal.png" in figures
-    assert {"table1_9_9_2_fig5.png", "table1_9_9_2_fig7.png", "table1_9_9_2_path.png"} < {*figures}
-    with (tmp_path / "table1_paths.csv").open(newline="") as stream:
-        paths = list(csv.DictReader(stream))
-    assert [path["method"] for path in paths] == ["relaxation", "nlp"] * 6
-    assert {path["same_diagram"] for path in paths} == {"True"}
-    lengths = [float(path["length"]) for path in paths]
-    assert all(ours < relaxed for relaxed, ours in zip(lengths[::2], lengths[1::2], strict=True))
-    assert (tmp_path / "table1_paths.md").read_text().count("\n| ") == 13
-
-
-def test_table1_over_all_grids(cli: Cli, tmp_path: Path) -> None:
-    rows = cli.json("table1", "--all-grids")
-    assert len(rows) == 15
-    assert all(row["robots_after"] == row["robots_after_paper"] for row in rows)
-    status, _, err = cli("table1", "--all-grids", "--out", tmp_path)
-    assert status == 2 and "leave out --all-grids" in err and not list(tmp_path.iterdir())
-
-
-def test_table1_is_written_the_same_every_time(cli: Cli, tmp_path: Path) -> None:
-    for run in "ab":
-        cli("table1", "--out", tmp_path / run)
-    for path in (tmp_path / "a").rglob("*.*"):
-        if path.stem == "table1_paths":
-            continue  # these have milliseconds
-        assert path.read_bytes() == (tmp_path / "b" / path.relative_to(tmp_path / "a")).read_bytes()
 
 
 def test_lcf(cli: Cli, tmp_path: Path) -> None:

@@ -5,17 +5,16 @@ from __future__ import annotations
 import json
 import os
 import signal
-import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
-from knotopt.atlas.schema import ATLAS, KNOTS, MANIFEST, TIMES
+from knotopt.atlas.schema import ATLAS, TIMES
 from knotopt.atlas.store import read_rows
 from knotopt.catalogue.lookup import find_knot
-from tests.conftest import Cli
+from tests.helpers.atlas_process import ended, parts, same_results, start, wait_for_parts
+from tests.helpers.command_line import Cli
 
 SMALL = ["3_1", "4_1"]
 NAMES = [
@@ -23,63 +22,15 @@ NAMES = [
     "4_1",
     *(f"{n}_{k}" for n, count in ((5, 2), (6, 3), (7, 7)) for k in range(1, count + 1)),
 ]
-SLOW = """
-import time
-from knotopt.atlas import run, store
-from knotopt.cli.app import main
-
-def add(self, results, write=store.Run.add):
-    write(self, results)
-    time.sleep(0.15)
-
-run.SHORTEST = run.SHARE = 0.0
-store.Run.add = add
-main()
-"""  # the command, with a part after every knot, and a moment in which to be killed
-
-
-def start(folder: Path, *options: object, slow: bool = False) -> subprocess.Popen[str]:
-    command = ["-c", SLOW] if slow else ["-m", "knotopt"]
-    # Into files: processes that outlive a killed one would keep its pipes open.
-    with folder.with_suffix(".out").open("w") as out, folder.with_suffix(".err").open("w") as err:
-        return subprocess.Popen(
-            [sys.executable, *command, "atlas", str(folder), *NAMES, *map(str, options)],
-            stdout=out,
-            stderr=err,
-            text=True,
-            cwd=Path(__file__).parents[2],
-            start_new_session=True,
-        )
-
-
-def ended(folder: Path, process: subprocess.Popen[str]) -> tuple[int, str, str]:
-    """Exit status, output, errors."""
-    status = process.wait(120)
-    texts = (folder.with_suffix(end).read_text() for end in (".out", ".err"))
-    return (status, *texts)
-
-
-def parts(folder: Path) -> int:
-    return len(list((folder / "parts").glob("part-*.parquet")))
-
-
-def wait_for_parts(folder: Path, count: int, process: subprocess.Popen[str]) -> None:
-    while parts(folder) < count:
-        assert process.poll() is None, ended(folder, process)
-        time.sleep(0.01)
-
-
-def same_results(one: Path, other: Path) -> bool:
-    return all((one / n).read_bytes() == (other / n).read_bytes() for n in (ATLAS, KNOTS, MANIFEST))
 
 
 def test_killed_and_interrupted_runs_end_like_others(tmp_path: Path) -> None:
     whole, broken = tmp_path / "whole", tmp_path / "broken"
-    status, output, errors = ended(whole, start(whole, "--jobs", 1, "--check", 0))
+    status, output, errors = ended(whole, start(whole, NAMES, "--jobs", 1, "--check", 0))
     assert (status, errors) == (0, "")
     assert "rows, one a knot and cut   112" in output
 
-    process = start(broken, "--jobs", 1, "--check", 0, slow=True)
+    process = start(broken, NAMES, "--jobs", 1, "--check", 0, pauses=True)
     wait_for_parts(broken, 2, process)
     process.send_signal(signal.SIGKILL)
     assert ended(broken, process) == (-signal.SIGKILL, "", "")
@@ -87,7 +38,7 @@ def test_killed_and_interrupted_runs_end_like_others(tmp_path: Path) -> None:
     assert killed >= 2
     assert not (broken / ATLAS).exists()
 
-    process = start(broken, "--jobs", 1, "--check", 0, slow=True)
+    process = start(broken, NAMES, "--jobs", 1, "--check", 0, pauses=True)
     wait_for_parts(broken, killed + 2, process)
     process.send_signal(signal.SIGINT)
     status, output, errors = ended(broken, process)
@@ -99,7 +50,7 @@ def test_killed_and_interrupted_runs_end_like_others(tmp_path: Path) -> None:
     )
     assert killed + 2 <= done < 14
 
-    status, _, errors = ended(broken, start(broken, "--jobs", 1, "--check", 0))
+    status, _, errors = ended(broken, start(broken, NAMES, "--jobs", 1, "--check", 0))
     assert (status, errors) == (0, "")
     assert same_results(broken, whole)
     assert read_rows(broken, TIMES).num_rows == 112
@@ -109,8 +60,8 @@ def test_killed_and_interrupted_runs_end_like_others(tmp_path: Path) -> None:
 @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGINT])
 def test_with_worker_processes(tmp_path: Path, how: signal.Signals) -> None:
     whole, broken = tmp_path / "whole", tmp_path / "broken"
-    assert ended(whole, start(whole, "--jobs", 1))[0] == 0
-    process = start(broken, "--jobs", 2, slow=True)
+    assert ended(whole, start(whole, NAMES, "--jobs", 1))[0] == 0
+    process = start(broken, NAMES, "--jobs", 2, pauses=True)
     wait_for_parts(broken, 2, process)
     if how is signal.SIGINT:
         os.killpg(process.pid, how)  # as a terminal does: workers hear it too
@@ -118,7 +69,7 @@ def test_with_worker_processes(tmp_path: Path, how: signal.Signals) -> None:
         process.send_signal(how)
     assert ended(broken, process)[0] == (130 if how is signal.SIGINT else -how)
     assert not (broken / ATLAS).exists()
-    assert ended(broken, start(broken, "--jobs", 2))[0] == 0
+    assert ended(broken, start(broken, NAMES, "--jobs", 2))[0] == 0
     assert same_results(broken, whole)
 
 

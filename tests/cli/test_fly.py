@@ -17,7 +17,7 @@ from knotopt.flight.plan import FlightPlan
 from knotopt.flight.plan_file import read_plan
 from knotopt.flight.planner import FlightPlanner, plan_flight
 from knotopt.mission import alternatives
-from tests.conftest import Cli
+from tests.helpers.command_line import Cli
 
 FILES = {
     "check.json",
@@ -167,6 +167,7 @@ def test_an_unknown_knot(cli: Cli) -> None:
     assert status == 1 and "no knot is named '99_9'" in err
 
 
+@pytest.mark.slow
 def test_a_flight_in_physics(cli: Cli, tmp_path: Path) -> None:
     pytest.importorskip("mujoco")
     folder = tmp_path / "trefoil"

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from knotopt.cli.logs import LOGGER, logging_to, telling
-from tests.conftest import Cli
+from tests.helpers.command_line import Cli
 
 library = logging.getLogger("knotopt.somewhere")
 

@@ -14,7 +14,7 @@ from matplotlib.collections import LineCollection
 from knotopt import best_cut, find_knot, optimise_path, relax, relaxed_path
 from knotopt.plot.path import draw_heights, draw_plan
 from knotopt.plot.path_figures import braid_figure, path_figure, relaxation_figure
-from tests.conftest import Cli
+from tests.helpers.command_line import Cli
 
 
 def test_path_prints_and_writes(cli: Cli, tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.conftest import Cli
+from tests.helpers.command_line import Cli
 
 FILES = {"report.md", "report.tex", "report.html", "atlas.csv"}
 

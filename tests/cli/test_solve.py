@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import csv
 import json
-import re
-import shlex
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from tests.conftest import Cli
-from tests.shown import commands, expect_shown
+from tests.helpers.command_line import Cli
 
 
 def test_solve(cli: Cli, tmp_path: Path) -> None:
@@ -202,16 +199,6 @@ def test_prove_goes_on_where_it_stopped(
     assert proven == ["3_1", "4_1", "5_1", "5_1"]
     assert file.read_text() == whole.read_text()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.jsonl", "whole.jsonl"]
-
-
-def test_the_readme_shows_what_is_printed(cli: Cli) -> None:
-    shown = list(commands(Path(__file__).parents[2] / "README.md"))
-    assert len(shown) == 8
-    for command, expected in shown:
-        cli.monkeypatch.chdir(Path("/"))
-        arguments = re.sub(r" --(plot path.png|out [a-z-]+)$", "", command)
-        _, out, _ = cli(*shlex.split(arguments))
-        expect_shown(command, expected, out)
 
 
 def test_compare_goes_on_where_it_stopped(

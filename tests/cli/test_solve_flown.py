@@ -15,8 +15,8 @@ from knotopt.rehearsal.flown_set import FlownSet
 from knotopt.sim.judge import Outcome, Verdict
 from knotopt.sim.simulators import Simulator
 from knotopt.supports.minimal import MinimalSupports
-from tests.conftest import Cli
-from tests.small_flight import flown_set
+from tests.helpers.command_line import Cli
+from tests.helpers.small_flight import flown_set
 
 TIED = Verdict(Outcome.TIED, "3_1", True, True, "1 - t + t^2")
 LOST = Verdict(Outcome.WRONG_KNOT, "unknot", False, True, "1")

@@ -16,7 +16,7 @@ from knotopt.topology.actions import parse_action
 from knotopt.topology.goals import GoalSet
 from knotopt.topology.legal import R2Rule, apply
 from knotopt.topology.state import TRIVIAL, RopeState
-from tests.conftest import Cli
+from tests.helpers.command_line import Cli
 
 OVERHAND = "U1+ O2+ U3+ O1+ U2+ O3+"
 

@@ -8,7 +8,7 @@ from hypothesis import given
 
 from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import GridError, KnotoptError
-from tests.strategies import diagrams
+from tests.helpers.strategies import diagrams
 
 TREFOIL = GridDiagram(minus=(1, 5, 4, 3, 2), plus=(4, 3, 2, 1, 5))
 

@@ -23,8 +23,8 @@ from knotopt.diagram.moves import (
 )
 from knotopt.diagram.simplify import simplify
 from knotopt.errors import GridError, MoveError
-from tests.outside import invariants, mirrored
-from tests.strategies import diagrams
+from tests.helpers.snappy_invariants import invariants, mirrored
+from tests.helpers.strategies import diagrams
 
 outside = settings(max_examples=40)
 T34 = torus_knot(3, 4)

@@ -21,7 +21,7 @@ from knotopt.document.latex import latex, latex_tables
 from knotopt.document.markdown import markdown
 from knotopt.document.model import Document, Picture, Section, table, tables
 from knotopt.errors import OutputError
-from tests.typesetting import typeset
+from tests.helpers.typesetting import typeset
 
 HOSTILE = r"""a_b {c} 50 % #1 \x ~ ^ "q" <script>alert(1)</script> | & $ * ü `m_n`"""
 SPECIAL = "|&%_<>\"'\\{}~^#$*[]()!+-.`\n\r\t\u2028\N{MINUS SIGN}\N{EN DASH}\N{KNOT}ü8a "

@@ -15,7 +15,7 @@ import pytest
 from knotopt.export.crazyswarm import export_files, flight_script
 from knotopt.export.fitting import fit_trajectories
 from knotopt.flight.limits import ROOM
-from tests.smooth_flight import flight
+from tests.helpers.smooth_flight import flight
 
 
 class Swarm:

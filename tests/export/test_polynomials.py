@@ -23,7 +23,7 @@ from knotopt.export.stretch import TOLERANCE
 from knotopt.export.waypoints import read_waypoints, waypoints_csv
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan
-from tests.smooth_flight import AMPLE, flight
+from tests.helpers.smooth_flight import AMPLE, flight
 
 
 class Reader:
@@ -121,9 +121,9 @@ def test_sudden_starts_and_stops_are_smoothed_within_a_centimetre(interval: floa
 def test_a_plan_near_its_limits_is_flown_within_them(acceleration: float) -> None:
     """Accelerations that jump, here by all they may less 5 %, are what a mere fit overshoots."""
     limits = FlightLimits(speed=0.5, acceleration=acceleration / 0.95)
-    plan = flight(limits=limits, depth=0.0)
+    plan = flight(limits=limits, depth=0.0, seconds=6)
     pace = limits.speed / acceleration
-    triangle = np.clip(np.minimum(plan.times - 3, 22 - plan.times) / pace, 0, 1)
+    triangle = np.clip(np.minimum(plan.times - 3, 8 - plan.times) / pace, 0, 1)
     along = np.cumsum(triangle) * plan.interval * limits.speed
     positions = np.repeat(plan.positions[:1], len(plan.times), axis=0)
     positions[:, -1, 0] += along

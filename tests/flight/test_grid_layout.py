@@ -12,7 +12,7 @@ from knotopt import Cable, shipped_knots
 from knotopt.arrays import FloatArray
 from knotopt.flight.grid_layout import NUDGE, span_words
 from knotopt.flight.layout import Letter
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 
 def cross(a: FloatArray, b: FloatArray) -> float:

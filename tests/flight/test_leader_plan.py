@@ -23,7 +23,7 @@ from knotopt.topology.extract import extract_state
 from knotopt.topology.legal import apply
 from knotopt.topology.plan import Plan, plan_graph
 from knotopt.topology.state import TRIVIAL, RopeState
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,7 @@ from knotopt.export.fitting import fit_trajectories
 from knotopt.export.recheck import recheck
 from knotopt.flight.limits import RANGES, FlightLimits
 from knotopt.flight.record import Disturbance
-from tests.small_flight import small_plan
+from tests.helpers.small_flight import small_plan
 
 
 @pytest.mark.parametrize(

@@ -22,7 +22,7 @@ from knotopt.errors import FileFormatError, RequirementError
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan, PlannedCrossing
 from knotopt.flight.plan_file import check_plan, plan_to_json, read_plan
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 
 @st.composite

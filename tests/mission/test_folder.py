@@ -24,7 +24,7 @@ from knotopt.mission.mission import Mission
 from knotopt.rehearsal.flown_set import FlownSet
 from knotopt.sim.judge import Outcome, Verdict
 from knotopt.sim.trials import Flight
-from tests.small_flight import small_plan, small_record
+from tests.helpers.small_flight import small_plan, small_record
 
 PLAN = small_plan()
 RECORD = small_record(PLAN)

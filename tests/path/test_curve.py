@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
@@ -15,6 +15,7 @@ from knotopt.errors import RequirementError
 from knotopt.path.heights import height_arcs
 
 
+@settings(max_examples=40)
 @given(st.integers(0, 2**32), st.integers(3, 12), st.booleans())
 def test_arc_length_is_arc_length(seed: int, count: int, smooth: bool) -> None:
     random = np.random.default_rng(seed)

@@ -31,7 +31,7 @@ from knotopt.path.remesh import remesh
 from knotopt.path.result import TOLERANCE, examine, span_name
 from knotopt.path.triangulation import triangulate
 from knotopt.verify.crossings import curve_crossings, grid_code
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 ROWS = ("3", "4", "5", "7 Var1", "7 Var2", "9")
 
@@ -75,7 +75,7 @@ def test_the_catalogue_keeps_its_diagrams() -> None:
 
 
 @given(cables(3, 6), st.data())
-@settings(max_examples=60)
+@settings(max_examples=40)
 def test_any_supports_of_any_cable_keep_the_diagram(cable: Cable, data: st.DataObject) -> None:
     count = len(cable.path)
     supports = data.draw(st.sets(st.integers(2, count - 1)).map(lambda s: tuple(sorted(s))))

@@ -20,7 +20,7 @@ from knotopt import (
 )
 from knotopt.errors import RequirementError
 from knotopt.path.mesh import robot_times
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 Word = tuple[tuple[int, int], ...]
 Point = tuple[float, float]

@@ -12,7 +12,7 @@ from PIL import Image
 
 from knotopt.plot.animation import FRAME_TIME, LAST_TIME, PIXELS, animate
 from knotopt.viewer.colours import ramp
-from tests.small_flight import small_plan, small_record
+from tests.helpers.small_flight import small_plan, small_record
 
 PLAN = small_plan()
 RECORD = small_record(PLAN)

@@ -27,7 +27,7 @@ from knotopt.plot.figures import before_after_figure, cable_figure, save_figure
 from knotopt.plot.path_figures import path_figure, relaxation_figure
 from knotopt.supports.lcf import best_cut, lcf
 from knotopt.supports.regions import Regions
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 EIGHT = best_cut(shipped_knots()["8_19"].diagram)
 

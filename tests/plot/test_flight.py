@@ -13,7 +13,7 @@ from matplotlib.colors import to_hex
 from knotopt.plot.figures import save_figure
 from knotopt.plot.flight import flight_figure, strip_figure
 from knotopt.viewer.colours import ramp
-from tests.small_flight import small_plan, small_record
+from tests.helpers.small_flight import small_plan, small_record
 
 PLAN = small_plan()
 RECORD = small_record(PLAN)

@@ -27,7 +27,7 @@ from knotopt.supports import by_size
 from knotopt.supports.minimal import MinimalSupports
 from knotopt.supports.requirements import Requirements
 from knotopt.verify.span import check_span
-from tests.small_flight import flown_set
+from tests.helpers.small_flight import flown_set
 
 TIED = Verdict(Outcome.TIED, "3_1", True, True, "1 - t + t^2")
 LOST = Verdict(Outcome.WRONG_KNOT, "unknot", False, True, "1")

@@ -10,7 +10,7 @@ import numpy as np
 from knotopt.flight.record import Disturbance
 from knotopt.rehearsal.flight_tests import FlightTests
 from knotopt.sim.judge import Outcome, Verdict
-from tests.small_flight import flown_set
+from tests.helpers.small_flight import flown_set
 
 TIED = Verdict(Outcome.TIED, "3_1", True, True, "1 - t + t^2")
 STUCK = Verdict(Outcome.STUCK, "unknot", False, True, "1")

@@ -32,6 +32,8 @@ from knotopt.supports.selection import choose_supports
 from knotopt.verify.flight_limits import LimitsReport
 from tests.layouts import TREFOIL
 
+pytestmark = pytest.mark.xdist_group("rehearse")  # of which one process flies the trefoil
+
 
 def measured(plan: FlightPlan) -> LimitsReport:
     return examine_plan(plan).limits
@@ -98,6 +100,7 @@ def test_a_file_that_starts_farther_out_flies_the_same_route() -> None:
     assert np.diff(after.stops) == pytest.approx(np.diff(before.stops))
 
 
+@pytest.mark.slow
 def test_robots_that_came_too_near_fly_the_route_in_a_longer_file() -> None:
     run = flown()
     limits = replace(run.planner.limits, separation=0.33, spacing=0.33)  # more than it keeps

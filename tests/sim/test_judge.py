@@ -15,7 +15,7 @@ from knotopt.diagram.grid import GridDiagram
 from knotopt.flight.record import Disturbance, FlightRecord
 from knotopt.sim.judge import Outcome, closed_polynomials, judge, knot_name
 from knotopt.sim.material import Material
-from tests.outside import invariants, seifert_invariants
+from tests.helpers.snappy_invariants import invariants, seifert_invariants
 
 TREFOIL = Cable(find_knot("3").diagram, "L+")
 

@@ -20,7 +20,7 @@ from knotopt.sim.judge import Outcome
 from knotopt.sim.simulators import SIMULATORS, Simulator
 from knotopt.sim.trials import fly_trial, fly_trials
 from knotopt.supports.selection import GivenSupports
-from tests.trailing_cable import TRAILING, TrailingCable
+from tests.helpers.trailing_cable import TRAILING, TrailingCable
 
 CABLE = Cable(find_knot("3").diagram, "L+")
 SMALLEST = GivenSupports(CABLE, (4, 5, 7))

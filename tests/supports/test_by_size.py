@@ -27,7 +27,7 @@ from knotopt.supports.minimal import all_minimal, minimal_supports
 from knotopt.supports.registry import FORMULATIONS
 from knotopt.supports.requirements import Requirements
 from knotopt.verify.registry import DEFINITIONS
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 Supports = tuple[int, ...]
 

@@ -23,7 +23,7 @@ from knotopt.supports.requirements import Requirements
 from knotopt.supports.search import best_supports
 from knotopt.verify import cable as verify_cable
 from knotopt.verify.certificate import check_certificate
-from tests.strategies import diagrams
+from tests.helpers.strategies import diagrams
 
 ROOT = Path(__file__).parents[2]
 

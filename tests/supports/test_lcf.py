@@ -21,7 +21,7 @@ from knotopt.supports import interior
 from knotopt.supports.lcf import best_cut, lcf, lcf_by_cut
 from knotopt.supports.regions import Regions
 from knotopt.verify.regions import define_regions
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 TABLE1: list[dict[str, Any]] = json.loads(
     (Path(__file__).parents[1] / "data" / "table1_expected.json").read_text()

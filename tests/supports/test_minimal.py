@@ -29,7 +29,7 @@ from knotopt.supports.team import compile_team
 from knotopt.verify.opening import threading_cells
 from knotopt.verify.regions import define_regions, lay
 from knotopt.verify.registry import DEFINITIONS
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 LENGTHS = st.none() | st.sampled_from([1.0, 1.5, 2.0, 3.0, 4.5, 6.0])
 

@@ -27,8 +27,8 @@ from knotopt.supports.search import best_supports
 from knotopt.supports.threading import Threading
 from knotopt.verify.opening import check_opening, closing_clauses
 from knotopt.verify.regions import define_regions
-from tests.shortest_path import smallest_path
-from tests.strategies import cables
+from tests.helpers.shortest_path import smallest_path
+from tests.helpers.strategies import cables
 
 GUIDE: list[dict[str, Any]] = [
     {"row": "3", "lcf": 5, "lcf_open": False, "same_cut": 5, "best_cut": 5},

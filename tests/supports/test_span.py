@@ -18,7 +18,7 @@ from knotopt.supports.span import compile_span
 from knotopt.supports.threading import Threading
 from knotopt.verify.regions import define_regions
 from knotopt.verify.span import SpanRules, check_span
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 MODES = st.sampled_from(list(Threading))
 OPENNESS = st.integers(1, 1000).map(lambda thousandths: Fraction(thousandths, 1000))

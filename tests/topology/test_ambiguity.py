@@ -8,7 +8,7 @@ import pytest
 from knotopt.arrays import FloatArray
 from knotopt.topology.ambiguity import Reason
 from knotopt.topology.extract import extract_state
-from tests.polylines import by_verifier, state_of
+from tests.helpers.polylines import by_verifier, state_of
 
 Points = FloatArray
 Moves = dict[int, tuple[float, float, float]]

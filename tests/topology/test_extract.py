@@ -24,9 +24,9 @@ from knotopt.topology.closure import brought_together, closed_gauss, closed_pd
 from knotopt.topology.extract import PolylineError, extract_state
 from knotopt.topology.state import RopeState
 from knotopt.verify.crossings import curve_crossings
-from tests.outside import seifert_invariants
-from tests.polylines import by_verifier, state_of
-from tests.strategies import cables
+from tests.helpers.polylines import by_verifier, state_of
+from tests.helpers.snappy_invariants import seifert_invariants
+from tests.helpers.strategies import cables
 
 Points = FloatArray
 
@@ -104,9 +104,9 @@ def invariants_of(link: spherogram.Link) -> tuple[tuple[int, ...], int]:
 
 
 def test_closed_curves_are_snappys_knots() -> None:
-    found = [knot_agreed_with_snappy(seed) for seed in range(150)]
-    assert found.count(None) < 5
-    assert sum(knot not in {None, (1,)} for knot in found) > 20
+    found = [knot_agreed_with_snappy(seed) for seed in range(100)]
+    assert found.count(None) < 4
+    assert sum(knot not in {None, (1,)} for knot in found) > 13
 
 
 @pytest.mark.slow

@@ -15,7 +15,7 @@ from knotopt.cable.notation import gauss_code
 from knotopt.errors import KnotoptError
 from knotopt.topology.state import TRIVIAL, RopeState, RopeStateError
 from knotopt.verify.crossings import curve_crossings
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 RAW = (1, 4, 40, 528, 7968)  # states by their number of crossings
 

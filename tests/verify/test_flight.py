@@ -15,7 +15,7 @@ from knotopt.verify.flight import _crossings, leader_events, nearest_approaches
 from knotopt.verify.flight_word import (
     reduced_word,
 )
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 
 def moving(seed: int, samples: int = 4, vertices: int = 6) -> FloatArray:

@@ -30,7 +30,7 @@ from knotopt.verify.flight_states import (
     state_sequence,
 )
 from knotopt.verify.flight_word import RouteCrossing, compare_words
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 EXACT = 1e-9
 

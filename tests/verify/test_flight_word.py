@@ -19,7 +19,7 @@ from knotopt.verify.flight_word import (
     plan_word,
     reduced_word,
 )
-from tests.strategies import cables
+from tests.helpers.strategies import cables
 
 
 @dataclass(frozen=True)

@@ -14,8 +14,8 @@ from knotopt.path.result import FINE, robot_points
 from knotopt.verify.alexander import POINTS, PRIME, alexander_values
 from knotopt.verify.crossings import curve_crossings, grid_code
 from knotopt.verify.path import alexander_of, closed_code, resample
-from tests.outside import seifert_invariants
-from tests.strategies import cables
+from tests.helpers.snappy_invariants import seifert_invariants
+from tests.helpers.strategies import cables
 
 
 def value(polynomial: tuple[int, ...], t: int) -> int:

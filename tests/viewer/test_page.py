@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from shutil import which
 from typing import Any
 
 import numpy as np
@@ -17,21 +16,13 @@ from knotopt.flight.plan import FlightPlan
 from knotopt.viewer.colours import ramp
 from knotopt.viewer.packing import resampled
 from knotopt.viewer.page import flight_page
-from tests.small_flight import small_plan, small_record
+from tests.helpers.small_flight import small_plan, small_record
 
 PLAN = small_plan()
 RECORD = small_record(PLAN)
+pytestmark = pytest.mark.xdist_group("page")  # one browser for all
 HOSTILE = """</script><script>window.hit = 1</script><img src=x onerror="window.hit = 2">'"&"""
 CSV = 't,robot,x\r\n0,1,0.5\n\u00e9\u2028</script>,"quoted"\n' + "0.25,2,1.75\n" * 2000
-FLAGS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
 
 
 @dataclass
@@ -62,18 +53,6 @@ class Opened:
 
     def number(self, script: str) -> float:
         return float(self.page.evaluate(script))
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    sync_api = pytest.importorskip("playwright.sync_api")
-    found = which("chromium") or which("chromium-browser") or which("google-chrome")
-    if found is None:
-        pytest.skip("no Chromium is installed")
-    with sync_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=found, headless=True, args=FLAGS)
-        yield browser
-        browser.close()
 
 
 @pytest.fixture

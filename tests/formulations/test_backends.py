@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -93,6 +94,21 @@ def test_a_time_limit_gives_what_is_known(name: str) -> None:
     assert found.objective is not None and found.bound is not None
     assert found.bound < found.objective and 0 < (found.gap or 0) <= 1
     assert found.seed == 3 and found.raw_status
+
+
+def test_a_limit_between_two_calls_of_an_oracle_is_no_proof(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    from pysat.examples.rc2 import RC2
+
+    def interrupted(self: RC2, process: Callable[[RC2], None] = RC2.process_core) -> None:
+        self.interrupt()
+        process(self)
+
+    monkeypatch.setattr(RC2, "process_core", interrupted)
+    found = get_backend("maxsat").solve(replace(COVER, start=(1, 2, 3)), Limits(seconds=1000))
+    assert (found.status, found.chosen, found.bound) == (Status.FEASIBLE, (1, 2, 3), 1)
+    assert found.raw_status == "time limit"
 
 
 def interrupt(name: str, folder: Path, code: str) -> list[str]:

@@ -1,30 +1,18 @@
-"""A small atlas at hand: its results, and runs of it that are whole or were interrupted."""
+"""A small atlas: its list of knots, its settings, and an engine that gives results at hand."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from functools import cache
 from pathlib import Path
 from typing import Any
 
-import pytest
-
 from knotopt.atlas.knot_list import knot_rows
-from knotopt.atlas.measure import KnotResult, measure_knot
-from knotopt.atlas.run import run_atlas
-from knotopt.atlas.schema import (
-    Settings,
-)
+from knotopt.atlas.measure import KnotResult
+from knotopt.atlas.schema import Settings
 from knotopt.catalogue.lookup import find_knot
 
 LIST = knot_rows(map(find_knot, ("3_1", "4_1", "5_1", "5_2", "T(2,7)")))
 SETTINGS = Settings(check=1)
-
-
-@cache
-def measured() -> dict[int, KnotResult]:
-    """Results of each knot of the list, by its number."""
-    return {knot.number: measure_knot(knot, SETTINGS) for knot in LIST}
 
 
 class Replay:
@@ -54,14 +42,3 @@ def contents(folder: Path) -> dict[str, bytes]:
         for path in folder.rglob("*")
         if path.is_file()
     }
-
-
-def whole_run(folder: Path) -> Path:
-    run_atlas(folder / "whole", LIST, SETTINGS, Replay(measured()))
-    return folder / "whole"
-
-
-def half_run(folder: Path) -> Path:
-    with pytest.raises(KeyboardInterrupt):
-        run_atlas(folder / "half", LIST, SETTINGS, Replay(measured(), 2, KeyboardInterrupt()))
-    return folder / "half"
