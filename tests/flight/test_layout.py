@@ -14,7 +14,7 @@ from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.planner import FlightPlanner, plan_flight
 from knotopt.flight.route import SpanShape
 from knotopt.verify.flight_word import compare_words, plan_word
-from tests.layouts import TREFOIL
+from tests.helpers.layouts import TREFOIL
 
 PLACES = [[0.0, 0.0], [4.0, 0.0], [1.0, 3.0]]
 LETTER = Letter(1, True, 1, None)

@@ -30,7 +30,7 @@ from knotopt.sim.trials import fly_trial, simulate
 from knotopt.supports.requirements import Requirements
 from knotopt.supports.selection import choose_supports
 from knotopt.verify.flight_limits import LimitsReport
-from tests.layouts import TREFOIL
+from tests.helpers.layouts import TREFOIL
 
 pytestmark = pytest.mark.xdist_group("rehearse")  # of which one process flies the trefoil
 
