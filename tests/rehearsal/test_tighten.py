@@ -24,7 +24,6 @@ from knotopt.sim.judge import Outcome
 from knotopt.sim.simulation import Simulation
 from knotopt.sim.trials import fly_trial
 
-pytestmark = pytest.mark.xdist_group("tighten")  # of which one process flies the trefoil
 DIAGRAM = shipped_knots()["3_1"].diagram
 CABLE = Cable(DIAGRAM, "L+")
 
