@@ -13,8 +13,6 @@ from knotopt.tables import table1
 from knotopt.tables.table1 import NOTE, Table1Result, compute_table1
 from tests.helpers.command_line import Cli
 
-pytestmark = pytest.mark.xdist_group("table1")  # of which one process computes the table
-
 
 @pytest.fixture(scope="module")
 def computed() -> tuple[Table1Result, ...]:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
 ROOT = Path(__file__).parents[2]
-pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("site")]  # which is built once
+pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")

@@ -27,14 +27,7 @@ CHOICES = ("lcf", "milp", "all")
 GRIDS = {grid.row: grid for grid in table1_grids() if grid.preferred}
 SMALL = {("3", "lcf"), ("3", "milp"), ("3", "all"), ("4", "lcf")}
 CASES = [
-    pytest.param(
-        *case,
-        id="-".join(case),
-        marks=[
-            pytest.mark.xdist_group("-".join(case)),  # of which one process has the plans
-            *([] if case in SMALL else [pytest.mark.slow]),
-        ],
-    )
+    pytest.param(*case, id="-".join(case), marks=[] if case in SMALL else pytest.mark.slow)
     for case in product(GRIDS, CHOICES)
 ]
 

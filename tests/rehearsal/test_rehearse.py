@@ -32,8 +32,6 @@ from knotopt.supports.selection import choose_supports
 from knotopt.verify.flight_limits import LimitsReport
 from tests.helpers.layouts import TREFOIL
 
-pytestmark = pytest.mark.xdist_group("rehearse")  # of which one process flies the trefoil
-
 
 def measured(plan: FlightPlan) -> LimitsReport:
     return examine_plan(plan).limits

@@ -26,7 +26,6 @@ from knotopt.sim.simulation import Simulation
 from knotopt.sim.simulators import MUJOCO
 from knotopt.sim.trials import Flight, fly_trial
 
-pytestmark = pytest.mark.xdist_group("tighten")  # of which one process flies the trefoil
 DIAGRAM = shipped_knots()["3_1"].diagram
 CABLE = Cable(DIAGRAM, "L+")
 

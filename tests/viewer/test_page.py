@@ -20,7 +20,6 @@ from tests.helpers.small_flight import small_plan, small_record
 
 PLAN = small_plan()
 RECORD = small_record(PLAN)
-pytestmark = pytest.mark.xdist_group("page")  # one browser for all
 HOSTILE = """</script><script>window.hit = 1</script><img src=x onerror="window.hit = 2">'"&"""
 CSV = 't,robot,x\r\n0,1,0.5\n\u00e9\u2028</script>,"quoted"\n' + "0.25,2,1.75\n" * 2000
 
