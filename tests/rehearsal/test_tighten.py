@@ -84,8 +84,8 @@ def test_robots_pull_level_and_come_to_rest() -> None:
 
 
 def test_ends_stop_where_they_are_to(monkeypatch: pytest.MonkeyPatch) -> None:
-    tied = SimpleNamespace(is_tied=True, verdict=laid().verdict, record=laid().record)
-    monkeypatch.setattr(tighten, "fly_trial", lambda *_: tied)
+    tied = laid().undisturbed
+    monkeypatch.setattr(tighten, "fly_trial", lambda plan, **_: replace(tied, plan=plan))
     monkeypatch.setattr(tighten, "fly_trials", lambda *_: [tied] * 3)
     ends = laid().plan.ends_apart[1]
     found = tighten_flight(laid(), ends + 0.5).plan
