@@ -71,7 +71,9 @@ class Curve:
         """Arc length at each point, shape (m,)."""
         if not self.is_smooth:
             return self._chords
-        pieces = (self._speeds * GAUSS_WEIGHTS).sum(axis=1) * np.diff(self._chords) / 2
+        start, width = self._chords[:-1, None], np.diff(self._chords)[:, None]
+        velocity = self._spline(start + width * (GAUSS_NODES + 1) / 2, 1)
+        pieces = (np.linalg.norm(velocity, axis=-1) * GAUSS_WEIGHTS).sum(axis=1) * width[:, 0] / 2
         return np.concatenate(([0], np.cumsum(pieces)))
 
     def position(self, s: float | FloatArray) -> FloatArray:
@@ -115,13 +117,6 @@ class Curve:
             return CubicSpline(self._chords, self.points, bc_type="natural")
         slopes = np.diff(self.points, axis=0) / np.diff(self._chords)[:, None]
         return PPoly(np.stack((slopes, self.points[:-1])), self._chords)
-
-    @cached_property
-    def _speeds(self) -> FloatArray:
-        """Speed of the parametrisation at the Gauss points of each piece, shape (m - 1, 5)."""
-        start, width = self._chords[:-1, None], np.diff(self._chords)[:, None]
-        u = start + width * (GAUSS_NODES + 1) / 2
-        return np.asarray(np.linalg.norm(self._spline(u, 1), axis=-1))
 
     def _parameter(self, s: float | FloatArray) -> FloatArray:
         """Chord-length parameter at arc length s: a first guess and Newton's steps."""
