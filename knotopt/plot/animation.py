@@ -14,7 +14,7 @@ from PIL import Image
 from knotopt.arrays import FloatArray
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.record import FlightRecord
-from knotopt.plot.flight import MARGIN, draw_strands, instants, seen_from_above
+from knotopt.plot.flight import MARGIN, caption, draw_strands, instants, seen_from_above
 from knotopt.viewer.colours import ramp
 
 FRAMES = 80
@@ -47,7 +47,7 @@ def animate(plan: FlightPlan, record: FlightRecord, title: str = "", frames: int
     axes = figure.add_axes((0, (1 - _SHARE) / 2, 1, _SHARE))
     axes.set_axis_off()
     figure.text(0.03, 0.94, title or f"{plan.name}: {plan.robots} robots", parse_math=False)
-    caption = figure.text(0.03, 0.03, "", color=_GREY)
+    words = figure.text(0.03, 0.03, "", color=_GREY)
     palette = _palette(len(record.held))
     pictures = []
     for frame, strands, (across, up) in zip(chosen, seen, views(seen), strict=True):
@@ -56,7 +56,7 @@ def animate(plan: FlightPlan, record: FlightRecord, title: str = "", frames: int
         axes.set(xlim=across, ylim=up)
         draw_strands(axes, strands, record)
         _draw_robots(axes, strands[record.held])
-        caption.set_text(f"{record.times[frame]:.1f} s{_due(plan, record.clock[frame])}")
+        words.set_text(caption(record, plan, frame))
         drawn = io.BytesIO()
         figure.savefig(drawn, format="rgba", dpi=_DPI)
         picture = Image.frombytes("RGBA", (PIXELS, PIXELS), drawn.getvalue()).convert("RGB")
@@ -66,13 +66,6 @@ def animate(plan: FlightPlan, record: FlightRecord, title: str = "", frames: int
     times = [FRAME_TIME] * len(others) + [LAST_TIME]
     first.save(buffer, "GIF", save_all=True, append_images=others, duration=times, loop=0)
     return buffer.getvalue()
-
-
-def _due(plan: FlightPlan, clock: float) -> str:
-    """What the leader did last by the plan, at a time of the plan [s]."""
-    if clock > plan.laid + plan.interval:
-        return ", pulled tight"
-    return next((f", {each.name}" for each in plan.crossings[::-1] if each.time <= clock), "")
 
 
 def views(seen: FloatArray) -> FloatArray:

@@ -13,13 +13,13 @@ from typing import Any
 
 import numpy as np
 
-from knotopt.arrays import IntArray
 from knotopt.document.pages import filled, page, part
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.record import FlightRecord
 from knotopt.supports.regions import Regions
 from knotopt.viewer.colours import ramp
 from knotopt.viewer.packing import frame_count, packed_motion, packed_text, resampled
+from knotopt.viewer.squares import active_layers
 
 SCRIPTS = ("unpack", "catenary", "canvas", "flight", "scene", "above", "heights", "player")
 ROUTE_POINTS = 1500  # of the leader's route that are drawn, at most
@@ -92,7 +92,7 @@ def _data(
         "step": plan.world.step,
         "altitude": plan.world.altitude,
         "size": plan.cable.diagram.size,
-        "layers": _layers(plan).tolist(),
+        "layers": active_layers(Regions(plan.cable)).tolist(),
         "crossings": [
             {
                 "name": crossing.name,
@@ -127,20 +127,6 @@ def _record(name: str, record: FlightRecord, count: int) -> dict[str, Any]:
         "held": np.searchsorted(shown, record.held).tolist(),
         "cable": packed_motion(cable, f"the record {name}"),
     }
-
-
-def _layers(plan: FlightPlan) -> IntArray:
-    """Active regions over each unit square [c, c + 1] x [r, r + 1], shape (N + 1, N + 1).
-
-    A region covers the squares that touch an interior cell, up to its boundary.
-    """
-    regions = Regions(plan.cable)
-    size = plan.cable.diagram.size
-    layers = np.zeros((size + 1, size + 1), dtype=np.int64)
-    for index in regions.active.tolist():
-        inside = np.pad(regions[index].interior, 1)
-        layers += inside[1:, 1:] | inside[:-1, 1:] | inside[1:, :-1] | inside[:-1, :-1]
-    return layers
 
 
 def _facts(plan: FlightPlan) -> str:
