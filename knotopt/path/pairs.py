@@ -9,6 +9,7 @@ from scipy.spatial import cKDTree
 
 from knotopt.arrays import FloatArray, IntArray
 from knotopt.path.mesh import FRAME, Mesh
+from knotopt.path.plane import cross
 from knotopt.path.threads import segment_distances
 
 NEAR = 0.25  # distances larger than need be by so much are left to the next round [grid steps]
@@ -81,7 +82,7 @@ def crossing_corners(mesh: Mesh) -> IntArray:
         for under in (-1, 1):
             first, second = mesh.chain[mesh.over + over], mesh.chain[mesh.under + under]
             p, q = (mesh.positions[v] - mesh.positions[at] for v in (first, second))
-            left = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0] > 0
+            left = cross(p, q) > 0
             corners.append(
                 np.stack((at, np.where(left, first, second), np.where(left, second, first)), axis=1)
             )

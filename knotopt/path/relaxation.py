@@ -195,9 +195,9 @@ def relaxed_path(
     run = relax(cable, supports, parameters)
     supports = tuple(sorted(supports))
     final = run.trajectory[-1]
-    far = ASTRAY * cable.diagram.size
-    finite = bool(np.isfinite(final).all()) and float(np.abs(final).max()) < far
-    if not finite:
+    # Not so either if some coordinate is not a number.
+    is_near = bool(np.abs(final).max() < ASTRAY * cable.diagram.size)
+    if not is_near:
         final = run.trajectory[0]
     curve, times = with_arcs(cable, supports, final, run.times, asked.gap)
     status = PathStatus.SOLVED if run.converged else PathStatus.STOPPED
@@ -210,8 +210,8 @@ def relaxed_path(
         supports,
         asked,
         "relaxation",
-        status if finite else PathStatus.FAILED,
-        words if finite else f"diverged in {run.steps} steps: the grid path",
+        status if is_near else PathStatus.FAILED,
+        words if is_near else f"diverged in {run.steps} steps: the grid path",
         curve,
         times,
         report,

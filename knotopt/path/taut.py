@@ -20,6 +20,7 @@ import numpy as np
 from knotopt.arrays import FloatArray, IntArray
 from knotopt.cable.cable import Cable
 from knotopt.path.mesh import robot_times
+from knotopt.path.plane import cross
 from knotopt.path.triangulation import triangulate
 
 Point = tuple[float, float]
@@ -138,6 +139,4 @@ def _funnel(start: int, end: int, portals: list[Portal], points: FloatArray) -> 
 
 def _area(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
     """Twice the signed area of triangle abc; any of them may be an array of points."""
-    first = (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1])
-    second = (b[..., 1] - a[..., 1]) * (c[..., 0] - a[..., 0])
-    return np.asarray(first - second)
+    return cross(b - a, c - a)

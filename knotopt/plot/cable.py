@@ -18,6 +18,7 @@ from matplotlib.patches import Patch, Rectangle
 
 from knotopt.arrays import FloatArray, IntArray
 from knotopt.cable.cable import Cable
+from knotopt.path.mesh import between
 from knotopt.plot.labels import draw_labels
 from knotopt.supports.regions import Regions
 from knotopt.viewer.squares import active_layers, squares
@@ -58,7 +59,7 @@ def draw_cable(axes: Axes, cable: Cable) -> None:
         axes,
         corners,
         [str(index) for index in range(1, count + 1)],
-        _close(corners),
+        between(corners, np.linspace(0, count - 1, CLOSE * count)),  # the path itself
         font=[8] * count,
         distance=NUMBER_OFFSET,
         first=_away(cable).astype(float),
@@ -111,8 +112,7 @@ def draw_spans(axes: Axes, cable: Cable, supports: Collection[int]) -> list[Line
     """The taut cable: straight spans between consecutive robots, as a handle for a legend."""
     robots = cable.points[[0, *sorted(index - 1 for index in supports), -1]]
     return axes.plot(
-        robots[:, 0],
-        robots[:, 1],
+        *robots.T,
         color=SPAN_COLOUR,
         linestyle=(0, (4, 2)),
         linewidth=1.2,
@@ -159,13 +159,6 @@ def draw_regions(axes: Axes, regions: Regions) -> list[Patch]:
             axes.add_patch(Rectangle((column, row), 1, 1, zorder=1, **style))
         handles.append(Patch(label="passive region", **style))
     return handles
-
-
-def _close(corners: FloatArray) -> FloatArray:
-    """Points of a polyline, close to each other."""
-    at = np.linspace(0, len(corners) - 1, CLOSE * len(corners))
-    index = np.arange(len(corners))
-    return np.column_stack([np.interp(at, index, corners[:, axis]) for axis in (0, 1)])
 
 
 def _away(cable: Cable) -> IntArray:
