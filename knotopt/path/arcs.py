@@ -73,7 +73,7 @@ def with_arcs(
     every = np.interp(where[order], places, times)
     rank = np.argsort(order)
     first, second = rank[len(plan) :].reshape(2, -1)
-    first_over = _first_over(cable, crossings, places, times)
+    first_over = _first_over(cable, np.interp(at, places, times).reshape(2, -1))
     robots = np.searchsorted(times, robot_times(cable, supports))
     along = length_along(points)
     heights = height_arcs(
@@ -121,16 +121,12 @@ def _denser(plan: FloatArray, times: FloatArray) -> tuple[FloatArray, FloatArray
     return between(plan, places), np.interp(places, np.arange(len(plan)), times)
 
 
-def _first_over(
-    cable: Cable, crossings: _PlanCrossings, places: FloatArray, times: FloatArray
-) -> BoolArray:
-    """Whether the earlier strand passes over at each crossing."""
-    columns = []
-    for at in (crossings.first, crossings.second):
-        segment = np.searchsorted(cable.times, np.interp(at, places, times), side="right") - 1
-        segment = np.clip(segment, 0, len(cable.path) - 2)
-        columns.append(cable.points[segment, 0] == cable.points[segment + 1, 0])
-    over: BoolArray = columns[0] & ~columns[1]
+def _first_over(cable: Cable, visits: FloatArray) -> BoolArray:
+    """Whether the earlier strand passes over at each crossing, visits shape (2, C) in time."""
+    segment = np.searchsorted(cable.times, visits, side="right") - 1
+    segment = np.clip(segment, 0, len(cable.path) - 2)
+    first, second = cable.points[segment, 0] == cable.points[segment + 1, 0]  # in a column
+    over: BoolArray = first & ~second
     return over
 
 

@@ -57,8 +57,7 @@ def strand_pairs(
         )
     )
     pairs[:, 1:] = np.sort(pairs[:, 1:], axis=1)
-    shares = np.zeros(len(pairs), dtype=bool)
-    shares[len(near.row) :] = True
+    shares = np.arange(len(pairs)) >= len(near.row)
     pairs, back = np.unique(pairs, axis=0, return_inverse=True)
     shares = np.bincount(back.ravel(), shares, minlength=len(pairs)) > 0
     distance = segment_distances(*(positions[pairs[:, k]] for k in range(3)))

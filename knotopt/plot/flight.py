@@ -17,6 +17,7 @@ from knotopt.path.curve import length_along
 from knotopt.plot.cable import CABLE_COLOUR, LIFTING_COLOUR, SUPPORT_COLOUR
 from knotopt.plot.figures import PANEL, measured_axes, titled
 from knotopt.plot.labels import HALO
+from knotopt.plot.path import OVER_COLOUR, UNDER_COLOUR
 from knotopt.viewer.colours import ramp
 
 ROUTE_COLOUR = "#999999"
@@ -54,14 +55,9 @@ def draw_route(axes: Axes, plan: FlightPlan) -> list[Line2D]:
     places = np.array([crossing.place for crossing in plan.crossings]).reshape(-1, 2)
     for over, (marker, colour, word) in _KINDS.items():
         chosen = [k for k, crossing in enumerate(plan.crossings) if crossing.over == over]
+        label = f"passes {word}, and which span"
         handles += axes.plot(
-            *places[chosen].T,
-            marker=marker,
-            color=colour,
-            linestyle="",
-            markersize=6,
-            label=f"passes {word}, and which span",
-            zorder=4,
+            *places[chosen].T, marker, color=colour, markersize=6, label=label, zorder=4
         )
     for crossing in plan.crossings:
         axes.annotate(
@@ -194,23 +190,18 @@ def draw_strands(axes: Axes, seen: FloatArray, record: FlightRecord) -> None:
 
 def _draw_numbered(axes: Axes, places: FloatArray) -> list[Line2D]:
     """Robots with their numbers, the leader a diamond; handles for a legend."""
-    handles = axes.plot(
-        *places[:-1].T,
-        "o",
-        color=SUPPORT_COLOUR,
-        markersize=5,
-        label="robots, numbered from the tail",
-        zorder=5,
-    )
-    handles += axes.plot(
-        *places[-1:].T, "D", color=LIFTING_COLOUR, markersize=5.5, label="leader", zorder=5
-    )
+    handles = []
+    for at, label, marker, colour, size in (
+        (places[:-1], "robots, numbered from the tail", "o", SUPPORT_COLOUR, 5),
+        (places[-1:], "leader", "D", LIFTING_COLOUR, 5.5),
+    ):
+        handles += axes.plot(*at.T, marker, color=colour, markersize=size, label=label, zorder=5)
     for number, place in enumerate(places, 1):
         axes.annotate(str(number), tuple(place), (-6, 6), color="#444444", **_NUMBER)
     return handles
 
 
-_KINDS = {True: ("^", "#009E73", "over"), False: ("v", "#CC79A7", "under")}
+_KINDS = {True: ("^", OVER_COLOUR, "over"), False: ("v", UNDER_COLOUR, "under")}
 _NUMBER: dict[str, Any] = {
     "textcoords": "offset points",
     "fontsize": 6.5,

@@ -17,7 +17,7 @@ from knotopt.plot.labels import HALO, draw_labels
 
 GAP_SHARE = 0.14  # half-width of the gap in a lower strand, at most [grid steps]
 ROBOT_WEIGHT = 5  # that a robot's middle counts more than a sample of the path under a label
-OVER_COLOUR = "#009E73"
+OVER_COLOUR, UNDER_COLOUR = "#009E73", "#CC79A7"
 GRID_COLOUR = "#CCCCCC"
 
 
@@ -30,8 +30,7 @@ def draw_plan(axes: Axes, result: PathResult) -> list[Line2D]:
         The robots, numbered as turning points, as handles for a legend.
     """
     plan, robots = result.report.samples[:, :2], result.robots[:, :2]
-    grid_path = result.cable.points
-    axes.plot(grid_path[:, 0], grid_path[:, 1], color=GRID_COLOUR, linewidth=1, zorder=1)
+    axes.plot(*result.cable.points.T, color=GRID_COLOUR, linewidth=1, zorder=1)
     axes.add_collection(
         LineCollection(_pieces(result), colors=CABLE_COLOUR, linewidths=1.8, zorder=3)
     )
@@ -67,17 +66,12 @@ def draw_heights(axes: Axes, result: PathResult) -> list[Line2D]:
     first = where == crossings.first[which]
     over = np.where(first, crossings.gap[which] > 0, crossings.gap[which] < 0)
     handles = []
-    for chosen, marker, label in ((over, "^", "passes over"), (~over, "v", "passes under")):
-        handles += axes.plot(
-            at[chosen],
-            height[chosen],
-            linestyle="",
-            marker=marker,
-            markersize=5,
-            color=OVER_COLOUR if marker == "^" else "#CC79A7",
-            label=label,
-            zorder=3,
-        )
+    for chosen, marker, colour, label in (
+        (over, "^", OVER_COLOUR, "passes over"),
+        (~over, "v", UNDER_COLOUR, "passes under"),
+    ):
+        x, y = at[chosen], height[chosen]
+        handles += axes.plot(x, y, marker, color=colour, markersize=5, label=label, zorder=3)
     for s, z, k in zip(at, height, which, strict=True):
         axes.annotate(
             f"c{k + 1}",

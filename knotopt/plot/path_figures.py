@@ -93,9 +93,9 @@ def _step_at(run: RelaxationRun, share: float) -> int:
 
 def _draw_nodes(axes: Axes, run: RelaxationRun, step: int, *, springs: bool) -> None:
     """The polyline and its nodes at a step, with all springs or with the straightening forces."""
-    start, now = run.trajectory[0], run.trajectory[step]
-    axes.plot(start[:, 0], start[:, 1], color=GRID_COLOUR, linewidth=1, zorder=1)
-    axes.plot(now[:, 0], now[:, 1], color="#222222", linewidth=1.6, zorder=3)
+    now = run.trajectory[step]
+    axes.plot(*run.trajectory[0].T, color=GRID_COLOUR, linewidth=1, zorder=1)
+    axes.plot(*now.T, color="#222222", linewidth=1.6, zorder=3)
     if springs:
         i, j = np.triu_indices(len(now), 1)
         lines = np.stack((now[i], now[j]), axis=1)
@@ -113,9 +113,8 @@ def _draw_nodes(axes: Axes, run: RelaxationRun, step: int, *, springs: bool) -> 
 
 def _draw_trajectories(axes: Axes, run: RelaxationRun) -> None:
     """The way of every node, from the grid to the end."""
-    start, end = run.trajectory[0], run.trajectory[-1]
-    axes.plot(start[:, 0], start[:, 1], color=GRID_COLOUR, linewidth=1, zorder=1)
-    axes.plot(end[:, 0], end[:, 1], color="#222222", linewidth=1.2, zorder=2)
+    axes.plot(*run.trajectory[0].T, color=GRID_COLOUR, linewidth=1, zorder=1)
+    axes.plot(*run.trajectory[-1].T, color="#222222", linewidth=1.2, zorder=2)
     ways = np.moveaxis(run.trajectory, 0, 1)
     axes.add_collection(
         LineCollection(list(ways[~run.fixed]), colors=FORCE_COLOUR, linewidths=1, zorder=3)

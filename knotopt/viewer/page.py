@@ -159,7 +159,7 @@ def _planned(plan: FlightPlan) -> str:
         return _section(
             "planned", "Planned crossings", "<p>The route crosses no cable that is laid.</p>"
         )
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for index, crossing in enumerate(plan.crossings):
         x, y = crossing.place
         cells = (
@@ -173,25 +173,24 @@ def _planned(plan: FlightPlan) -> str:
             f'<button type="button" class="go" data-crossing="{index}" '
             f'aria-label="Go to {crossing.time:.1f} seconds">{crossing.time:.1f}</button>'
         )
-        rows.append(f"<tr><td>{go}</td>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
+        rows.append((go, *cells))
     heads = ("time [s]", "crossing", "place [m]", "route [m]", "cable [m]", "gap [m]")
-    return _section("planned", "Planned crossings", _table(heads, "".join(rows)))
+    return _section("planned", "Planned crossings", _table(heads, rows))
 
 
 def _events(events: Sequence[Mapping[str, str]]) -> str:
     if not events:
         return ""
     heads = list(dict.fromkeys(column for row in events for column in row))
-    rows = "".join(
-        "<tr>" + "".join(f"<td>{escape(row.get(head, ''))}</td>" for head in heads) + "</tr>"
-        for row in events
-    )
+    rows = [[escape(row.get(head, "")) for head in heads] for row in events]
     return _section("events", "Crossings as executed", _table(heads, rows))
 
 
-def _table(heads: Sequence[str], rows: str) -> str:
+def _table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A table of texts over cells of HTML."""
     head = "".join(f'<th scope="col">{escape(text)}</th>' for text in heads)
-    return f"<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>"
+    body = "".join("<tr>" + "".join(f"<td>{each}</td>" for each in row) + "</tr>" for row in rows)
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 
 
 def _section(name: str, title: str, content: str) -> str:
