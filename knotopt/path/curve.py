@@ -27,7 +27,7 @@ class Curve:
     Parameters
     ----------
     points : float array, shape (m, 3)
-        [grid steps, or metres after `scaled`]
+        [grid steps, or metres in a `World`]
     is_smooth : bool
         Whether the curve is the natural cubic spline through the points, parametrised by chord
         length, which has a continuous curvature, or the polyline.
@@ -102,10 +102,6 @@ class Curve:
         share = np.concatenate([np.arange(n) / n for n in count.tolist()])
         u = np.append(self._chords[start] + share * chords[start], self._chords[-1])
         return np.asarray(self._spline(u))
-
-    def scaled(self, factor: float, height: float = 0.0) -> Curve:
-        """The curve with every coordinate times a factor, and lifted: metres from grid steps."""
-        return Curve(self.points * factor + np.array([0.0, 0.0, height]), self.is_smooth)
 
     @cached_property
     def _chords(self) -> FloatArray:

@@ -7,6 +7,7 @@ be told apart without colour vision and in print.
 from __future__ import annotations
 
 from collections.abc import Collection
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -38,7 +39,7 @@ def draw_cable(axes: Axes, cable: Cable) -> None:
     """The cable with gaps at under-crossings and its turning points numbered along the path."""
     size = cable.diagram.size
     pieces = []
-    for (c0, r0), (c1, r1) in zip(cable.path, cable.path[1:], strict=False):
+    for (c0, r0), (c1, r1) in pairwise(cable.path):
         if c0 == c1:
             pieces.append([(c0, r0), (c1, r1)])
             continue
