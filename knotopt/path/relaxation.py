@@ -146,7 +146,6 @@ def relax(
     position, velocity = start.copy(), np.zeros_like(start)
     rest = np.linalg.norm(start[:, None] - start[None], axis=2)
     trajectory = [start]
-    converged = False
     for done in range(1, int(asked.most_steps) + 1):
         force = _spring_forces(position, velocity, rest, asked)
         force += asked.alpha * straightening(position, asked.straight)
@@ -155,12 +154,9 @@ def relax(
         position = position + asked.step * velocity
         trajectory.append(position)
         fastest = float(np.linalg.norm(velocity, axis=1).max(initial=0))
-        if not np.isfinite(fastest):
-            break
-        if done < asked.least_steps:
-            continue
-        if fastest < asked.velocity and asked.step * fastest < asked.displacement:
-            converged = True
+        is_slow = fastest < asked.velocity and asked.step * fastest < asked.displacement
+        converged = is_slow and done >= asked.least_steps
+        if converged or not np.isfinite(fastest):
             break
     return RelaxationRun(times, fixed, np.array(trajectory), converged)
 
