@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections import defaultdict
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -26,3 +28,12 @@ def load(name: str) -> tuple[Row, list[Row]]:
     header, *records = (RESULTS / f"{name}.jsonl").read_text(encoding="utf-8").splitlines()
     rows = [json.loads(record) for record in records]
     return json.loads(header), [{**row["case"], **row["result"]} for row in rows]
+
+
+def grouped(rows: Iterable[Row], *keys: str) -> dict[Any, list[Row]]:
+    """Records by the value of a key, or by the values of several, in the order first met."""
+    groups: dict[Any, list[Row]] = defaultdict(list)
+    for row in rows:
+        values = tuple(row[key] for key in keys)
+        groups[values if len(keys) > 1 else values[0]].append(row)
+    return dict(groups)

@@ -33,17 +33,14 @@ def write_atomically(path: Path, content: str | bytes) -> None:
     OutputError
         The file cannot be written there; an existing one is left as it was.
     """
-    data = content.encode() if isinstance(content, str) else content
     temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex}.tmp")
-    try:
+    with _writing(path):
         path.parent.mkdir(parents=True, exist_ok=True)
         try:
-            _write_through(temporary, data)
+            _write_through(temporary, content)
             temporary.replace(path)
         finally:
             temporary.unlink(missing_ok=True)
-    except OSError as error:
-        raise OutputError(f"cannot write {path}: {error.strerror}") from error
 
 
 def write_folder(
@@ -72,7 +69,7 @@ def write_folder(
     token = uuid.uuid4().hex
     temporary, old = (target.with_name(f".{token}.{end}") for end in ("tmp", "old"))
     made: list[Path] = []
-    try:
+    with _writing(path):
         try:
             for parent in reversed((target.parent, *target.parent.parents)):
                 if not parent.exists():
@@ -80,8 +77,7 @@ def write_folder(
                     made.append(parent)
             temporary.mkdir()
             for name, content in files.items():
-                data = content.encode() if isinstance(content, str) else content
-                _write_through(temporary / name, data)
+                _write_through(temporary / name, content)
             if target.exists():
                 target.rename(old)
             try:
@@ -95,8 +91,6 @@ def write_folder(
             for parent in reversed(made):
                 parent.rmdir()
             raise
-    except OSError as error:
-        raise OutputError(f"cannot write {path}: {error.strerror}") from error
     shutil.rmtree(old, ignore_errors=True)
 
 
@@ -109,7 +103,7 @@ def check_folder(path: Path, why_kept: Callable[[Path], str] | None = None) -> N
         It cannot.
     """
     target = path.resolve()
-    try:
+    with _writing(path):
         if target.exists() and not target.is_dir():
             raise OutputError(f"cannot write {path}: a file is in the way")
         if target.is_dir():
@@ -128,14 +122,21 @@ def check_folder(path: Path, why_kept: Callable[[Path], str] | None = None) -> N
         above = next(parent for parent in target.parents if parent.exists())
         with tempfile.TemporaryDirectory(dir=above):
             pass
+
+
+@contextmanager
+def _writing(path: Path) -> Iterator[None]:
+    """Whatever the system says against it becomes an error that names the path."""
+    try:
+        yield
     except OSError as error:
         raise OutputError(f"cannot write {path}: {error.strerror}") from error
 
 
-def _write_through(path: Path, data: bytes) -> None:
-    """Write a file down to the disk."""
+def _write_through(path: Path, content: str | bytes) -> None:
+    """Write a file down to the disk, text as UTF-8."""
     with path.open("wb") as stream:
-        stream.write(data)
+        stream.write(content.encode() if isinstance(content, str) else content)
         stream.flush()
         os.fsync(stream.fileno())
 
@@ -170,10 +171,9 @@ def resumable_lines(
     """
     partial = path.with_name(f"{path.name}.partial")
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        text = partial.read_text(encoding="utf-8") if partial.exists() else f"{header}\n"
-    except OSError as error:
-        raise OutputError(f"cannot write {path}: {error.strerror}") from error
+        with _writing(path):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            text = partial.read_text(encoding="utf-8") if partial.exists() else f"{header}\n"
     except UnicodeDecodeError as error:
         raise OutputError(f"{partial} is damaged: remove the file") from error
     first, *rest = text.split("\n")

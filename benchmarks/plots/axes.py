@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from benchmarks.results import FAMILIES, Row
+from benchmarks.results import FAMILIES, Row, grouped
 from knotopt.plot.figures import PANEL
 
 ASIDE = 0.08  # between the bars of two series
@@ -31,6 +31,24 @@ def draw_medians(axes: Axes, groups: Mapping[float, Sequence[float]], **style: A
     least = np.array([min(values) for values in groups.values()])
     most = np.array([max(values) for values in groups.values()])
     axes.errorbar(list(groups), middle, (middle - least, most - middle), **BARS, **style)
+
+
+def draw_families(
+    axes: Axes, rows: Sequence[Row], seconds: Callable[[Row], float], **style: Any
+) -> None:
+    """Medians of times against grid size, a line a family of grid diagrams."""
+    for family, (marker, colour) in FAMILIES.items():
+        sizes = grouped((row for row in rows if row["family"] == family), "size")
+        times = {size: [*map(seconds, group)] for size, group in sizes.items()}
+        draw_medians(axes, times, marker=marker, color=colour, markersize=4, **style)
+
+
+def growth_axes(axes: Axes, label: str, sizes: Sequence[int]) -> None:
+    """Times against grid size, log-log, with ticks at some sizes."""
+    axes.set(xscale="log", yscale="log", xlabel="grid size N", ylabel=label)
+    axes.set_xticks(sizes, labels=[str(size) for size in sizes])
+    axes.minorticks_off()
+    axes.grid(alpha=0.3)
 
 
 Series = tuple[str, str, str, Callable[[Row], Sequence[float]]]

@@ -10,8 +10,15 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from benchmarks.plots.axes import draw_medians, family_legend, panel, robots_by_crossings
-from benchmarks.results import FAMILIES, load
+from benchmarks.plots.axes import (
+    draw_families,
+    family_legend,
+    growth_axes,
+    panel,
+    robots_by_crossings,
+)
+from benchmarks.plots.words import machine_words
+from benchmarks.results import grouped, load
 from knotopt.atlas.report.performance import SHIFT, SOLVERS, draw_profile, shifted_geometric_mean
 from knotopt.document.markdown import markdown_block
 from knotopt.document.model import table_of
@@ -154,10 +161,9 @@ def robots_figure(rows: Rows) -> Figure:
 def growth_table(rows: Rows) -> str:
     """Compile and solve times at each size, and what LCF has there."""
     lines = []
-    groups: dict[tuple[str, str, int], Rows] = defaultdict(list)
-    for row in rows:
-        groups[row["formulation"], row["family"], row["size"]].append(row)
-    for (formulation, family, size), group in groups.items():
+    for (formulation, family, size), group in grouped(
+        rows, "formulation", "family", "size"
+    ).items():
         solved = [row for row in group if row["robots"] is not None]
         lines.append(
             [
@@ -180,18 +186,15 @@ def growth_figure(rows: Rows) -> Figure:
     """Compile plus solve time against grid size, log-log, by formulation and family."""
     figure, axes = panel()
     styles = {"opening": "-", "span": "--"}
-    for formulation, style in styles.items():
-        for family, (marker, colour) in FAMILIES.items():
-            times: dict[float, list[float]] = defaultdict(list)
-            for row in rows:
-                if (row["formulation"], row["family"]) == (formulation, family):
-                    times[row["size"]].append(row["compile_seconds"] + row["solve_seconds"])
-            draw_medians(axes, times, marker=marker, color=colour, linestyle=style, markersize=4)
-    axes.set(xscale="log", yscale="log", xlabel="grid size N", ylabel="compile and solve [s]")
-    axes.set_xticks([10, 20, 40, 60], labels=["10", "20", "40", "60"])
-    axes.minorticks_off()
+    for formulation, group in grouped(rows, "formulation").items():
+        draw_families(
+            axes,
+            group,
+            lambda row: row["compile_seconds"] + row["solve_seconds"],
+            linestyle=styles[formulation],
+        )
+    growth_axes(axes, "compile and solve [s]", (10, 20, 40, 60))
     family_legend(axes, styles)
-    axes.grid(alpha=0.3)
     return figure
 
 
@@ -212,10 +215,9 @@ def write_parts() -> tuple[list[str], dict[str, Figure]]:
     _, solvers = load("solvers")
     _, growth = load("formulations_growth")
     _, certificates = load("certificates")
-    machine = ", ".join(f"{key} {value}" for key, value in header["machine"].items())
     parts = [
         "# Benchmarks of the formulations",
-        f"One machine: {machine}. r = 0.5.",
+        f"One machine: {machine_words(header)}. r = 0.5.",
         "## LCF against the smallest sets: 249 prime knots, all crossing-free cuts (mean robots)",
         counts_table(catalogue),
         speed_note(catalogue),

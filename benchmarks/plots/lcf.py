@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable
 from statistics import mean, median
 from typing import Any
@@ -11,7 +10,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from benchmarks.plots.axes import SPREAD, draw_medians, panel, robots_by_crossings
-from benchmarks.results import FAMILIES, SPEED_AT, load
+from benchmarks.plots.words import machine_words
+from benchmarks.results import FAMILIES, SPEED_AT, grouped, load
 from knotopt.document.markdown import markdown_block
 from knotopt.document.model import table_of
 
@@ -21,16 +21,13 @@ FIT_FROM = 40  # growth exponents are fitted to N >= 40, where fixed costs no lo
 def catalogue_summary(rows: list[dict[str, Any]]) -> str:
     """Table: robots by crossing number."""
     lines = []
-    groups: dict[str, list[dict[str, Any]]] = defaultdict(list)
-    for row in rows:
-        groups[str(row["crossing_number"])].append(row)
-    for name, group in [*groups.items(), ("all", rows)]:
+    for name, group in [*grouped(rows, "crossing_number").items(), ("all", rows)]:
         cuts = [robots for row in group for robots in row["robots"].values()]
         layered = [robots for row in group for robots in row["robots_layered"].values()]
         best = [min(row["robots"].values()) for row in group]
         lines.append(
             [
-                ("crossings", name),
+                ("crossings", f"{name}"),
                 ("knots", f"{len(group)}"),
                 ("cuts", f"{len(cuts)}"),
                 ("baseline", f"{mean(row['robots_before'] for row in group):.2f}"),
@@ -124,10 +121,9 @@ def write_parts() -> tuple[list[str], dict[str, Figure]]:
         f"{row['times_a_bare_python']:.1f} times a bare Python (median of {row['runs']} runs)."
         for row in startup
     ]
-    machine = ", ".join(f"{key} {value}" for key, value in header["machine"].items())
     parts = [
         "# Benchmarks of LCF",
-        f"One machine, one core: {machine}.",
+        f"One machine, one core: {machine_words(header)}.",
         "## 249 prime knots up to 10 crossings, all crossing-free cuts (mean robots)",
         catalogue_summary(catalogue),
         "![robots by crossing number](robots.png)",
@@ -141,8 +137,5 @@ def write_parts() -> tuple[list[str], dict[str, Figure]]:
 
 
 def _by_size(rows: list[dict[str, Any]], family: str, key: str) -> dict[int, list[float]]:
-    found: dict[int, list[float]] = defaultdict(list)
-    for row in rows:
-        if row["family"] == family:
-            found[row["size"]].append(row[key])
-    return dict(found)
+    groups = grouped((row for row in rows if row["family"] == family), "size")
+    return {size: [row[key] for row in group] for size, group in groups.items()}

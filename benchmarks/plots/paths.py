@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from statistics import median
 from typing import Any
 
 from matplotlib.figure import Figure
 
-from benchmarks.plots.axes import draw_medians, family_legend, panel
-from benchmarks.results import FAMILIES, SMALL, load
+from benchmarks.plots.axes import draw_families, family_legend, growth_axes, panel
+from benchmarks.plots.words import machine_words, ruled
+from benchmarks.results import SMALL, grouped, load
 
 Rows = list[dict[str, Any]]
 DONE = ("solved", "converged")
@@ -26,12 +26,11 @@ def _known(values: list[float | None]) -> list[float]:
 
 def catalogue_table(rows: Rows) -> str:
     """Counts and medians by supports and method."""
-    lines = [
+    lines = ruled(
         "| supports | method | paths | solved or converged | same diagram | other knot "
         "| clearance or opening lost | / taut, median | / taut, worst | radius, median "
-        "| radius, smallest |",
-        "|---|---|---|---|---|---|---|---|---|---|---|",
-    ]
+        "| radius, smallest |"
+    )
     for supports in ("lcf", "opening"):
         for method in METHODS:
             paths = _paths(rows, supports, method)
@@ -119,15 +118,9 @@ def unsolved_note(rows: Rows) -> str:
 
 def stiffness_table(rows: Rows) -> str:
     """The relaxation's validity and length at each stiffness."""
-    lines = [
-        "| stiffness k | converged | same diagram | other knot | / taut, median |",
-        "|---|---|---|---|---|",
-    ]
-    groups: dict[float, Rows] = defaultdict(list)
-    for row in rows:
-        for path in row["paths"]:
-            groups[path["stiffness"]].append(path)
-    for stiffness, paths in groups.items():
+    lines = ruled("| stiffness k | converged | same diagram | other knot | / taut, median |")
+    every = [path for row in rows for path in row["paths"]]
+    for stiffness, paths in grouped(every, "stiffness").items():
         lines.append(
             f"| {stiffness:g} | {sum(p['status'] in DONE for p in paths)} "
             f"| {sum(p['same_diagram'] for p in paths)} "
@@ -139,15 +132,11 @@ def stiffness_table(rows: Rows) -> str:
 
 def growth_table(rows: Rows) -> str:
     """Times at each size, medians over the seeds."""
-    lines = [
+    lines = ruled(
         "| family | N | runs | crossings | program s | rounds | iterations | solved "
-        "| relaxation s | same diagram, program | relaxation |",
-        "|---|---|---|---|---|---|---|---|---|---|---|",
-    ]
-    groups: dict[tuple[str, int], Rows] = defaultdict(list)
-    for row in rows:
-        groups[row["family"], row["size"]].append(row)
-    for (family, size), group in groups.items():
+        "| relaxation s | same diagram, program | relaxation |"
+    )
+    for (family, size), group in grouped(rows, "family", "size").items():
         relaxed = [row["paths"][0] for row in group]
         ours = [row["paths"][1] for row in group]
         lines.append(
@@ -186,10 +175,8 @@ def stretch_figure(rows: Rows) -> Figure:
 def tradeoff_figure(rows: Rows) -> Figure:
     """Length against bending as the weight grows, a line a row of Table I."""
     figure, axes = panel()
-    groups: dict[str, Rows] = defaultdict(list)
-    for row in rows:
-        if row["smooth"]:  # a polyline has no curvature to measure
-            groups[row["row"]].append(row)
+    rows = [row for row in rows if row["smooth"]]  # a polyline has no curvature to measure
+    groups = grouped(rows, "row")
     for name, group in groups.items():
         axes.plot(
             [row["bending_energy"] for row in group],
@@ -221,20 +208,13 @@ def growth_figure(rows: Rows) -> Figure:
     """Time against grid size, log-log, both methods."""
     figure, axes = panel()
     styles = {"program": "-", "relaxation": ":"}
-    for place, style in ((1, styles["program"]), (0, styles["relaxation"])):
-        for family, (marker, colour) in FAMILIES.items():
-            times: dict[float, list[float]] = defaultdict(list)
-            for row in rows:
-                if row["family"] == family:
-                    times[row["size"]].append(row["paths"][place]["milliseconds"] / 1e3)
-            draw_medians(axes, times, marker=marker, color=colour, linestyle=style, markersize=4)
+    for place, style in zip((1, 0), styles.values(), strict=True):
+        paths = [row | row["paths"][place] for row in rows]
+        draw_families(axes, paths, lambda path: path["milliseconds"] / 1e3, linestyle=style)
     label = f"goal at N = 40: {GOAL_SECONDS:g} s"
     goal = axes.axhline(GOAL_SECONDS, xmin=0.8, label=label, **GOAL)
-    axes.set(xscale="log", yscale="log", xlabel="grid size N", ylabel="time [s]")
-    axes.set_xticks([10, 20, 40], labels=["10", "20", "40"])
-    axes.minorticks_off()
+    growth_axes(axes, "time [s]", (10, 20, 40))
     family_legend(axes, styles, goal)
-    axes.grid(alpha=0.3)
     return figure
 
 
@@ -244,11 +224,10 @@ def write_parts() -> tuple[list[str], dict[str, Figure]]:
     _, stiffness = load("paths_stiffness")
     _, tradeoff = load("paths_tradeoff")
     _, growth = load("paths_growth")
-    machine = ", ".join(f"{key} {value}" for key, value in header["machine"].items())
     parts = [
         "# Benchmarks of the paths",
-        f"One machine, one core: {machine}. Clearance 0.15, opening 0.25, gap 0.3, slope 1, "
-        "bending 0.04; each path made and examined once.",
+        f"One machine, one core: {machine_words(header)}. Clearance 0.15, opening 0.25, "
+        "gap 0.3, slope 1, bending 0.04; each path made and examined once.",
         f"## Relaxation and program: {len(catalogue)} knots, best cut of LCF and of `opening`",
         catalogue_table(catalogue),
         "Clearance or opening lost: below 0.148 or 0.248 though the diagram is the grid's. Radius "

@@ -9,6 +9,8 @@ from matplotlib.figure import Figure
 
 from benchmarks import results
 from benchmarks.physics_subsets import LOST_AT
+from benchmarks.plots.words import machine_words, ruled
+from benchmarks.results import grouped
 from knotopt.sim.trials import wilson_interval
 
 Rows = list[dict[str, Any]]
@@ -17,11 +19,10 @@ SEEDS = 3  # disturbed flights, of the five, that a set is asked to tie in
 
 def flown_table(rows: Rows) -> str:
     """One line a set: robots, what the flights tied, what went wrong first."""
-    lines = [
+    lines = ruled(
         "| row | method | cut | cuts tried | robots | undisturbed | disturbed, tied | rehearsals "
-        "| flight [s] | robots apart | first crossing amiss |",
-        "|---|---|---|---|---|---|---|---|---|---|---|",
-    ]
+        "| flight [s] | robots apart | first crossing amiss |"
+    )
     numbered = {row["method"] for row in rows if row["number"]}
     for row in rows:
         method = row["method"] + (f", set {row['number'] + 1}" if row["method"] in numbered else "")
@@ -41,14 +42,8 @@ def flown_table(rows: Rows) -> str:
 
 def rates_table(rows: Rows) -> str:
     """Success rates by method with Wilson's intervals; a set without a plan counts as failed."""
-    sets: dict[str, list[dict[str, Any]]] = defaultdict(list)
-    for row in rows:
-        sets[row["method"]].append(row)
-    lines = [
-        "| method | sets | tied undisturbed | disturbed flights | tied | 95 % interval |",
-        "|---|---|---|---|---|---|",
-    ]
-    for method, some in sets.items():
+    lines = ruled("| method | sets | tied undisturbed | disturbed flights | tied | 95 % interval |")
+    for method, some in grouped(rows, "method").items():
         flights = sum(len(each["disturbed"]) if each["planned"] else 5 for each in some)
         tied = sum(each.get("tied_disturbed", 0) for each in some)
         low, high = wilson_interval(tied, flights)
@@ -61,13 +56,11 @@ def rates_table(rows: Rows) -> str:
 
 def confusion_table(rows: Rows) -> str:
     """What each model says of a subset beside what physics does with it."""
-    lines = [
+    lines = ruled(
         "| knot | model, r | open and tied | open, not tied | not open, tied | neither "
-        "| tied, of the open | smallest open | smallest tied |",
-        "|---|---|---|---|---|---|---|---|---|",
-    ]
-    for knot in dict.fromkeys(row["knot"] for row in rows):
-        of_knot = [row for row in rows if row["knot"] == knot]
+        "| tied, of the open | smallest open | smallest tied |"
+    )
+    for knot, of_knot in grouped(rows, "knot").items():
         tied_sizes = [len(r["supports"]) for r in of_knot if r["tied"]]
         for model in of_knot[0]["models"]:
             counts: dict[tuple[bool, bool], int] = defaultdict(int)
@@ -85,15 +78,12 @@ def confusion_table(rows: Rows) -> str:
 
 def lost_table(rows: Rows) -> str:
     """How often sets tie by the number of regions that `span` loses, and pairs of sets."""
-    lines = ["| knot | regions lost | sets | tied | 95 % interval |", "|---|---|---|---|---|"]
+    lines = ruled("| knot | regions lost | sets | tied | 95 % interval |")
     pairs = []
-    for knot in dict.fromkeys(row["knot"] for row in rows):
-        tied = {frozenset(row["supports"]): row["tied"] for row in rows if row["knot"] == knot}
-        by_lost: dict[int, list[bool]] = defaultdict(list)
-        for row in rows:
-            if row["knot"] == knot:
-                by_lost[row["regions_lost"]].append(row["tied"])
-        for lost, found in sorted(by_lost.items()):
+    for knot, of_knot in grouped(rows, "knot").items():
+        tied = {frozenset(row["supports"]): row["tied"] for row in of_knot}
+        for lost, group in sorted(grouped(of_knot, "regions_lost").items()):
+            found = [row["tied"] for row in group]
             low, high = wilson_interval(sum(found), len(found))
             lines.append(
                 f"| {knot} | {lost} | {len(found)} | {sum(found)} | {low:.2f} to {high:.2f} |"
@@ -108,12 +98,11 @@ def lost_table(rows: Rows) -> str:
 
 def tight_table(rows: Rows) -> str:
     """One line a set that was pulled tight."""
-    lines = [
+    lines = ruled(
         "| row | method | cut | robots | ends apart, laid and pulled [m] "
         "| supports within, laid and pulled [m] | pulled for [s] | undisturbed "
-        "| disturbed, tied | without the pull | tension [N] | robots apart | why it ends |",
-        "|---|---|---|---|---|---|---|---|---|---|---|---|---|",
-    ]
+        "| disturbed, tied | without the pull | tension [N] | robots apart | why it ends |"
+    )
     for row in rows:
         start = f"| {row['row']} | {row['method']} | {row['cut']} | {row['robots']} "
         if not row["planned"]:
@@ -155,10 +144,9 @@ def safe_table(rows: Rows) -> str:
 def write_parts() -> tuple[list[str], dict[str, Figure]]:
     """The parts of the page."""
     header, rows = results.load("physics")
-    machine = ", ".join(f"{key} {value}" for key, value in header["machine"].items())
     parts = [
         "# Flights in physics",
-        f"One machine, one core: {machine}.",
+        f"One machine, one core: {machine_words(header)}.",
         "Grid step 0.5 m. Sets are flown on routes that up to three rehearsals made and that were "
         "chosen by flights with other disturbances; `all` on modelled routes, in a wider file "
         "first, where one of them ties in all of those, `none` on the modelled route. Each set is "

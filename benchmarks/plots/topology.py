@@ -5,11 +5,11 @@ from __future__ import annotations
 from statistics import median
 from typing import Any
 
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from benchmarks.results import load
-from knotopt.plot.figures import PANEL
+from benchmarks.plots.words import machine_words, ruled
+from benchmarks.results import grouped, load
+from knotopt.plot.figures import PANEL, measured_axes
 
 Rows = list[dict[str, Any]]
 KINDS = ((False, "all", "s", "#666666"), (True, "up to symmetry", "o", "#0072B2"))
@@ -17,11 +17,10 @@ KINDS = ((False, "all", "s", "#666666"), (True, "up to symmetry", "o", "#0072B2"
 
 def growth_table(rows: Rows) -> str:
     """One line a number of crossings."""
-    lines = [
+    lines = ruled(
         "| crossings | states | time [s] | runs | up to mirror image and reverse | time [s] "
-        "| runs |",
-        "|---|---|---|---|---|---|---|",
-    ]
+        "| runs |"
+    )
     for crossings in sorted({row["crossings"] for row in rows}):
         cells = []
         for canonical in (False, True):
@@ -34,11 +33,10 @@ def growth_table(rows: Rows) -> str:
 
 def planning_table(rows: Rows) -> str:
     """One line a goal."""
-    lines = [
+    lines = ruled(
         "| goal | crossings | plans | states | actions | backward [ms] | median [ms] | runs "
-        "| forward [s] | runs | states met | forward / backward |",
-        "|---|---|---|---|---|---|---|---|---|---|---|---|",
-    ]
+        "| forward [s] | runs | states met | forward / backward |"
+    )
     for row in rows:
         forward = " | | |"
         if "ratio" in row:
@@ -56,13 +54,11 @@ def planning_table(rows: Rows) -> str:
 
 def extraction_table(rows: Rows) -> str:
     """One line a kind of curve and number of points."""
-    lines = [
+    lines = ruled(
         "| curve | points | curves | crossings, median | ambiguous | fastest [ms] | median [ms] "
-        "| runs a curve |",
-        "|---|---|---|---|---|---|---|---|",
-    ]
-    for curve, points in dict.fromkeys((row["curve"], row["points"]) for row in rows):
-        some = [row for row in rows if (row["curve"], row["points"]) == (curve, points)]
+        "| runs a curve |"
+    )
+    for (curve, points), some in grouped(rows, "curve", "points").items():
         counts = [row["crossings"] for row in some if row["crossings"] is not None]
         lines.append(
             f"| {curve} | {points} | {len(some)} | {median(counts) if counts else '-'} "
@@ -107,10 +103,11 @@ def topology_figure(growth: Rows, planning: Rows) -> Figure:
             markersize=4,
             label=label,
         )
-    left.set_ylabel("states", fontsize=8)
-    right.set_ylabel("time [s]", fontsize=8)
-    for axes in (left, right):
-        _finish(axes)
+    for axes, label in ((left, "states"), (right, "time [s]")):
+        axes.set_yscale("log")
+        measured_axes(axes, "crossings", label)
+        axes.xaxis.get_major_locator().set_params(integer=True)
+        axes.legend(fontsize=7, frameon=False)
     return figure
 
 
@@ -119,10 +116,9 @@ def write_parts() -> tuple[list[str], dict[str, Figure]]:
     header, growth = load("topology_growth")
     _, planning = load("topology_planning")
     _, extraction = load("topology_extraction")
-    machine = ", ".join(f"{key} {value}" for key, value in header["machine"].items())
     parts = [
         "# States of a rope",
-        f"One machine, one core: {machine}.",
+        f"One machine, one core: {machine_words(header)}.",
         "## How many there are",
         growth_table(growth),
         "Times are for making all states from those with one crossing fewer, by R1 and C; the "
@@ -141,12 +137,3 @@ def write_parts() -> tuple[list[str], dict[str, Figure]]:
         "Medians over the curves of the fastest and of the median run of each.",
     ]
     return parts, {"topology.png": topology_figure(growth, planning)}
-
-
-def _finish(axes: Axes) -> None:
-    axes.set_yscale("log")
-    axes.set_xlabel("crossings", fontsize=8)
-    axes.tick_params(labelsize=7)
-    axes.xaxis.get_major_locator().set_params(integer=True)
-    axes.legend(fontsize=7, frameon=False)
-    axes.grid(alpha=0.3)

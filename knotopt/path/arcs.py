@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from knotopt.arrays import FloatArray, IndexArray, IntArray
+from knotopt.arrays import BoolArray, FloatArray, IndexArray, IntArray
 from knotopt.cable.cable import Cable
 from knotopt.path.curve import Curve, length_along
 from knotopt.path.heights import height_arcs
 from knotopt.path.mesh import between, robot_times
+from knotopt.path.plane import cross
 from knotopt.topology.crossings import crossings_and_contacts, projection
 
 SPACING = 0.5  # of the points that the curve goes through, at most [grid steps]
@@ -70,10 +71,9 @@ def with_arcs(
     order = np.argsort(where, kind="stable")
     points = np.concatenate((plan, crossings.point, crossings.point))[order]
     every = np.interp(where[order], places, times)
-    rank = np.empty(len(where), dtype=np.int64)
-    rank[order] = np.arange(len(where))
+    rank = np.argsort(order)
     first, second = rank[len(plan) :].reshape(2, -1)
-    first_over = _first_over(cable, crossings, places, times)
+    first_over = _first_over(cable, np.interp(at, places, times).reshape(2, -1))
     robots = np.searchsorted(times, robot_times(cable, supports))
     along = length_along(points)
     heights = height_arcs(
@@ -109,12 +109,8 @@ def _crossings(plan: FloatArray) -> _PlanCrossings | None:
 def _share(plan: FloatArray, i: IndexArray, j: IndexArray) -> FloatArray:
     """Where segments i meet the lines of segments j."""
     step = plan[j + 1] - plan[j]
-    before, after = (
-        step[:, 0] * off[:, 1] - step[:, 1] * off[:, 0]
-        for off in (plan[i] - plan[j], plan[i + 1] - plan[j])
-    )
-    share: FloatArray = before / (before - after)
-    return share
+    before, after = cross(step, plan[i] - plan[j]), cross(step, plan[i + 1] - plan[j])
+    return before / (before - after)
 
 
 def _denser(plan: FloatArray, times: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -125,16 +121,12 @@ def _denser(plan: FloatArray, times: FloatArray) -> tuple[FloatArray, FloatArray
     return between(plan, places), np.interp(places, np.arange(len(plan)), times)
 
 
-def _first_over(
-    cable: Cable, crossings: _PlanCrossings, places: FloatArray, times: FloatArray
-) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Whether the earlier strand passes over at each crossing."""
-    columns = []
-    for at in (crossings.first, crossings.second):
-        segment = np.searchsorted(cable.times, np.interp(at, places, times), side="right") - 1
-        segment = np.clip(segment, 0, len(cable.path) - 2)
-        columns.append(cable.points[segment, 0] == cable.points[segment + 1, 0])
-    over: np.ndarray[tuple[int], np.dtype[np.bool_]] = columns[0] & ~columns[1]
+def _first_over(cable: Cable, visits: FloatArray) -> BoolArray:
+    """Whether the earlier strand passes over at each crossing, visits shape (2, C) in time."""
+    segment = np.searchsorted(cable.times, visits, side="right") - 1
+    segment = np.clip(segment, 0, len(cable.path) - 2)
+    first, second = cable.points[segment, 0] == cable.points[segment + 1, 0]  # in a column
+    over: BoolArray = first & ~second
     return over
 
 

@@ -27,7 +27,7 @@ class Curve:
     Parameters
     ----------
     points : float array, shape (m, 3)
-        [grid steps, or metres after `scaled`]
+        [grid steps, or metres in a `World`]
     is_smooth : bool
         Whether the curve is the natural cubic spline through the points, parametrised by chord
         length, which has a continuous curvature, or the polyline.
@@ -71,7 +71,9 @@ class Curve:
         """Arc length at each point, shape (m,)."""
         if not self.is_smooth:
             return self._chords
-        pieces = (self._speeds * GAUSS_WEIGHTS).sum(axis=1) * np.diff(self._chords) / 2
+        start, width = self._chords[:-1, None], np.diff(self._chords)[:, None]
+        velocity = self._spline(start + width * (GAUSS_NODES + 1) / 2, 1)
+        pieces = (np.linalg.norm(velocity, axis=-1) * GAUSS_WEIGHTS).sum(axis=1) * width[:, 0] / 2
         return np.concatenate(([0], np.cumsum(pieces)))
 
     def position(self, s: float | FloatArray) -> FloatArray:
@@ -101,10 +103,6 @@ class Curve:
         u = np.append(self._chords[start] + share * chords[start], self._chords[-1])
         return np.asarray(self._spline(u))
 
-    def scaled(self, factor: float, height: float = 0.0) -> Curve:
-        """The curve with every coordinate times a factor, and lifted: metres from grid steps."""
-        return Curve(self.points * factor + np.array([0.0, 0.0, height]), self.is_smooth)
-
     @cached_property
     def _chords(self) -> FloatArray:
         return length_along(self.points)
@@ -115,13 +113,6 @@ class Curve:
             return CubicSpline(self._chords, self.points, bc_type="natural")
         slopes = np.diff(self.points, axis=0) / np.diff(self._chords)[:, None]
         return PPoly(np.stack((slopes, self.points[:-1])), self._chords)
-
-    @cached_property
-    def _speeds(self) -> FloatArray:
-        """Speed of the parametrisation at the Gauss points of each piece, shape (m - 1, 5)."""
-        start, width = self._chords[:-1, None], np.diff(self._chords)[:, None]
-        u = start + width * (GAUSS_NODES + 1) / 2
-        return np.asarray(np.linalg.norm(self._spline(u, 1), axis=-1))
 
     def _parameter(self, s: float | FloatArray) -> FloatArray:
         """Chord-length parameter at arc length s: a first guess and Newton's steps."""

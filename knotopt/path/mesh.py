@@ -60,14 +60,16 @@ class Mesh:
     @cached_property
     def over(self) -> IntArray:
         """Place of each crossing's upper visit, shape (C,)."""
-        crossings = self.cable.crossings
-        return self.places(np.where(crossings.first_over, crossings.first, crossings.second))
+        return self._visits(self.cable.crossings.first_over)
 
     @cached_property
     def under(self) -> IntArray:
         """Place of each crossing's lower visit, shape (C,)."""
+        return self._visits(~self.cable.crossings.first_over)
+
+    def _visits(self, is_first: BoolArray) -> IntArray:
         crossings = self.cable.crossings
-        return self.places(np.where(crossings.first_over, crossings.second, crossings.first))
+        return self.places(np.where(is_first, crossings.first, crossings.second))
 
     @cached_property
     def joints(self) -> IntArray:

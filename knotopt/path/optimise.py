@@ -26,14 +26,7 @@ from knotopt.path.mesh import Mesh, lay_mesh, robot_times
 from knotopt.path.pairs import arc_ends, crossing_corners, robot_turns, strand_pairs
 from knotopt.path.remesh import remesh
 from knotopt.path.requirements import PathRequirements
-from knotopt.path.result import (
-    NamedViolation,
-    PathResult,
-    Round,
-    examine,
-    span_name,
-    unmet,
-)
+from knotopt.path.result import NamedViolation, PathResult, Round, examine, span_name, unmet
 from knotopt.path.threads import Threads, find_threads, opening_pairs
 from knotopt.path.triangulation import triangulate
 from knotopt.supports.regions import Regions
@@ -166,15 +159,15 @@ def optimise_path(
         if best is None or fitted.excess <= best.excess:
             best = fitted
         checking += time.perf_counter() - since
-        if fitted.meets_all or over or repairs == REPAIRS:
+        if not fitted.missed or over or repairs == REPAIRS:
             break
         repairs += 1
         limits = limits.tightened(asked, fitted.report)
-    if not best.meets_all:
+    if best.missed:
         polyline = _fit(mesh, asked, is_smooth=False)
         best = polyline if polyline.excess < best.excess else best
     # The program's own limits are tighter than what is asked, so its word is not the last one.
-    expected = PathStatus.SOLVED if best.meets_all else PathStatus.INFEASIBLE
+    expected = PathStatus.INFEASIBLE if best.missed else PathStatus.SOLVED
     if status is not expected:
         status = PathStatus.STOPPED
     reasons = [*best.missed]
@@ -208,38 +201,32 @@ def optimise_path(
 
 @dataclass(frozen=True, eq=False)
 class _Fitted:
-    """A curve through a mesh's places, and what it does not meet."""
+    """A curve through a mesh's places, and what it does not meet.
+
+    `excess` is by how much limits are missed, as shares: inf for another diagram, 0 if none is.
+    """
 
     curve: Curve
     times: FloatArray
     report: PathReport
-    asked: PathRequirements
     missed: list[str]
+    excess: float
 
-    @property
-    def meets_all(self) -> bool:
-        return not self.missed
 
-    @property
-    def excess(self) -> float:
-        """By how much limits are missed, as shares; inf for another diagram."""
-        if not self.missed or not self.report.same_diagram:
-            return math.inf if self.missed else 0.0
-        found, asked = self.report, self.asked
+def _fit(mesh: Mesh, asked: PathRequirements, *, is_smooth: bool = True) -> _Fitted:
+    curve = Curve(mesh.points, is_smooth)
+    found = examine(mesh.cable, mesh.supports, curve, asked)
+    missed = unmet(found, asked, curve, mesh.times, mesh.cable)
+    excess = math.inf if missed else 0.0
+    if missed and found.same_diagram:
         least = (
             (found.clearance, asked.clearance),
             (found.opening, asked.opening),
             (found.gap, asked.gap),
             (asked.slope, found.steepest),
         )
-        return 1e-9 + sum(max(0.0, 1 - value / limit) for value, limit in least)
-
-
-def _fit(mesh: Mesh, asked: PathRequirements, *, is_smooth: bool = True) -> _Fitted:
-    curve = Curve(mesh.points, is_smooth)
-    report = examine(mesh.cable, mesh.supports, curve, asked)
-    missed = unmet(report, asked, curve, mesh.times, mesh.cable)
-    return _Fitted(curve, mesh.times, report, asked, missed)
+        excess = 1e-9 + sum(max(0.0, 1 - value / limit) for value, limit in least)
+    return _Fitted(curve, mesh.times, found, missed, excess)
 
 
 def _settled(rounds: list[Round]) -> bool:
@@ -333,15 +320,13 @@ def _compile(
         moving = moving[altitude <= 2 * math.sqrt(2) * reach]
     pairs, distances = strand_pairs(mesh, triangles, limits.clearance, asked.neighbourhood)
     openings = opening_pairs(mesh, threads, limits.opening + OPENING_NEAR)
-    held_heights = np.zeros(len(mesh.chain), dtype=bool)
-    held_heights[mesh.robots] = True
     slopes = np.abs(np.diff(mesh.heights)) / mesh.lengths
     return PathProgram(
         positions=mesh.positions,
         held=held,
         chain=mesh.chain,
         heights=mesh.heights,
-        held_heights=held_heights,
+        held_heights=np.isin(np.arange(len(mesh.chain)), mesh.robots),
         spacing=np.maximum(mesh.lengths, LEAST_SPACING),
         triangles=moving,
         strand_pairs=pairs,

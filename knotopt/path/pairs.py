@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
@@ -9,6 +11,7 @@ from scipy.spatial import cKDTree
 
 from knotopt.arrays import FloatArray, IntArray
 from knotopt.path.mesh import FRAME, Mesh
+from knotopt.path.plane import cross
 from knotopt.path.threads import segment_distances
 
 NEAR = 0.25  # distances larger than need be by so much are left to the next round [grid steps]
@@ -56,8 +59,7 @@ def strand_pairs(
         )
     )
     pairs[:, 1:] = np.sort(pairs[:, 1:], axis=1)
-    shares = np.zeros(len(pairs), dtype=bool)
-    shares[len(near.row) :] = True
+    shares = np.arange(len(pairs)) >= len(near.row)
     pairs, back = np.unique(pairs, axis=0, return_inverse=True)
     shares = np.bincount(back.ravel(), shares, minlength=len(pairs)) > 0
     distance = segment_distances(*(positions[pairs[:, k]] for k in range(3)))
@@ -77,14 +79,13 @@ def crossing_corners(mesh: Mesh) -> IntArray:
     """Corners of crossings that are not wide: vertex, neighbour, next one counterclockwise."""
     corners = []
     at = mesh.chain[mesh.over]
-    for over in (-1, 1):
-        for under in (-1, 1):
-            first, second = mesh.chain[mesh.over + over], mesh.chain[mesh.under + under]
-            p, q = (mesh.positions[v] - mesh.positions[at] for v in (first, second))
-            left = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0] > 0
-            corners.append(
-                np.stack((at, np.where(left, first, second), np.where(left, second, first)), axis=1)
-            )
+    for over, under in product((-1, 1), repeat=2):
+        first, second = mesh.chain[mesh.over + over], mesh.chain[mesh.under + under]
+        p, q = (mesh.positions[v] - mesh.positions[at] for v in (first, second))
+        left = cross(p, q) > 0
+        corners.append(
+            np.stack((at, np.where(left, first, second), np.where(left, second, first)), axis=1)
+        )
     found = np.concatenate(corners)
     p, q = (mesh.positions[found[:, k]] - mesh.positions[found[:, 0]] for k in (1, 2))
     cosine = (p * q).sum(axis=1) / (np.linalg.norm(p, axis=1) * np.linalg.norm(q, axis=1))

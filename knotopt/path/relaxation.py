@@ -146,7 +146,6 @@ def relax(
     position, velocity = start.copy(), np.zeros_like(start)
     rest = np.linalg.norm(start[:, None] - start[None], axis=2)
     trajectory = [start]
-    converged = False
     for done in range(1, int(asked.most_steps) + 1):
         force = _spring_forces(position, velocity, rest, asked)
         force += asked.alpha * straightening(position, asked.straight)
@@ -155,12 +154,9 @@ def relax(
         position = position + asked.step * velocity
         trajectory.append(position)
         fastest = float(np.linalg.norm(velocity, axis=1).max(initial=0))
-        if not np.isfinite(fastest):
-            break
-        if done < asked.least_steps:
-            continue
-        if fastest < asked.velocity and asked.step * fastest < asked.displacement:
-            converged = True
+        is_slow = fastest < asked.velocity and asked.step * fastest < asked.displacement
+        converged = is_slow and done >= asked.least_steps
+        if converged or not np.isfinite(fastest):
             break
     return RelaxationRun(times, fixed, np.array(trajectory), converged)
 
@@ -195,9 +191,9 @@ def relaxed_path(
     run = relax(cable, supports, parameters)
     supports = tuple(sorted(supports))
     final = run.trajectory[-1]
-    far = ASTRAY * cable.diagram.size
-    finite = bool(np.isfinite(final).all()) and float(np.abs(final).max()) < far
-    if not finite:
+    # Not so either if some coordinate is not a number.
+    is_near = bool(np.abs(final).max() < ASTRAY * cable.diagram.size)
+    if not is_near:
         final = run.trajectory[0]
     curve, times = with_arcs(cable, supports, final, run.times, asked.gap)
     status = PathStatus.SOLVED if run.converged else PathStatus.STOPPED
@@ -210,8 +206,8 @@ def relaxed_path(
         supports,
         asked,
         "relaxation",
-        status if finite else PathStatus.FAILED,
-        words if finite else f"diverged in {run.steps} steps: the grid path",
+        status if is_near else PathStatus.FAILED,
+        words if is_near else f"diverged in {run.steps} steps: the grid path",
         curve,
         times,
         report,

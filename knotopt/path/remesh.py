@@ -13,6 +13,7 @@ import numpy as np
 
 from knotopt.arrays import BoolArray, FloatArray, IntArray
 from knotopt.path.mesh import FRAME, Mesh
+from knotopt.path.plane import cross
 
 STRAIGHT = np.radians(20)  # a vertex that turns less may go
 SHARP = np.radians(35)  # segments beside a vertex that turns more are halved
@@ -47,11 +48,8 @@ def turning(plan: FloatArray) -> FloatArray:
     """By how much the path turns at each place [rad], 0 at its ends, shape (m,)."""
     step = np.diff(plan, axis=0)
     ahead, behind = step[1:], step[:-1]
-    cross = behind[:, 0] * ahead[:, 1] - behind[:, 1] * ahead[:, 0]
-    dot = (behind * ahead).sum(axis=1)
-    turns = np.zeros(len(plan))
-    turns[1:-1] = np.abs(np.arctan2(cross, dot))
-    return turns
+    turns = np.abs(np.arctan2(cross(behind, ahead), (behind * ahead).sum(axis=1)))
+    return np.pad(turns, 1)
 
 
 def _coarsen(mesh: Mesh, protected: IntArray, spacing: float, finest: float) -> Mesh:
@@ -96,30 +94,22 @@ def _empty_triangles(mesh: Mesh, places: IntArray) -> BoolArray:
         )
         near = near[~np.isin(near, mesh.chain[place - 1 : place + 2])]
         if len(near):
-            sides = _sides(corners, vertices[near])
+            along = np.roll(corners, -1, axis=0) - corners
+            sides = cross(along[:, None], vertices[near] - corners[:, None])
             empty[k] = not ((sides >= 0).all(axis=0) | (sides <= 0).all(axis=0)).any()
     return empty
-
-
-def _sides(corners: FloatArray, points: FloatArray) -> FloatArray:
-    """Signed area of each point with each side of a triangle, shape (3, len(points))."""
-    along = np.roll(corners, -1, axis=0) - corners
-    away = points[None] - corners[:, None]
-    sides: FloatArray = along[:, None, 0] * away[..., 1] - along[:, None, 1] * away[..., 0]
-    return sides
 
 
 def _without(mesh: Mesh, gone: BoolArray) -> Mesh:
     if not gone.any():
         return mesh
-    chain = mesh.chain[~gone]
     kept = np.ones(len(mesh.positions), dtype=bool)
     kept[mesh.chain[gone]] = False
     number = np.cumsum(kept) - 1
     return replace(
         mesh,
         positions=mesh.positions[kept],
-        chain=number[chain],
+        chain=number[mesh.chain[~gone]],
         times=mesh.times[~gone],
         heights=mesh.heights[~gone],
     )

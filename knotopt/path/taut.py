@@ -20,6 +20,7 @@ import numpy as np
 from knotopt.arrays import FloatArray, IntArray
 from knotopt.cable.cable import Cable
 from knotopt.path.mesh import robot_times
+from knotopt.path.plane import cross
 from knotopt.path.triangulation import triangulate
 
 Point = tuple[float, float]
@@ -117,32 +118,20 @@ def _funnel(start: int, end: int, portals: list[Portal], points: FloatArray) -> 
     """Points that the shortest way from start to end through the portals bends at."""
     portals = [*portals, (end, end)]
     way = [start]
-    apex, left, right = start, start, start
-    at_left = at_right = -1
+    apex, border, met = start, [start, start], [-1, -1]  # left and right, and their portals
     k = 0
     while k < len(portals):
-        new_left, new_right = portals[k]
-        p = points[apex]
-        if _area(p, points[right], points[new_right]) >= 0:
-            if apex == right or _area(p, points[left], points[new_right]) < 0:
-                right, at_right = new_right, k
-            else:
-                way.append(left)
-                apex, k = left, at_left
-                left = right = apex
-                at_right = at_left
-                k += 1
+        for side, sign in ((1, 1), (0, -1)):
+            p, new, other = points[apex], portals[k][side], border[1 - side]
+            if sign * _area(p, points[border[side]], points[new]) < 0:
                 continue
-        if _area(p, points[left], points[new_left]) <= 0:
-            if apex == left or _area(p, points[right], points[new_left]) > 0:
-                left, at_left = new_left, k
+            if apex == border[side] or sign * _area(p, points[other], points[new]) < 0:
+                border[side], met[side] = new, k
             else:
-                way.append(right)
-                apex, k = right, at_right
-                left = right = apex
-                at_left = at_right
-                k += 1
-                continue
+                way.append(other)
+                apex, k = other, met[1 - side]
+                border, met = [apex, apex], [k, k]
+                break
         k += 1
     way.append(end)
     return [v for i, v in enumerate(way) if i == 0 or v != way[i - 1]]
@@ -150,6 +139,4 @@ def _funnel(start: int, end: int, portals: list[Portal], points: FloatArray) -> 
 
 def _area(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
     """Twice the signed area of triangle abc; any of them may be an array of points."""
-    first = (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1])
-    second = (b[..., 1] - a[..., 1]) * (c[..., 0] - a[..., 0])
-    return np.asarray(first - second)
+    return cross(b - a, c - a)

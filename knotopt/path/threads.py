@@ -23,14 +23,12 @@ class Threads:
 
     Attributes
     ----------
-    region : int array, shape (K,)
     witness : int array, shape (K,)
         Time of a turning point of the strand inside the region [grid steps].
     first, second : int array, shape (K, 2)
         Time intervals of the region's boundary; the second of a loop is empty, [0, -1].
     """
 
-    region: IntArray
     witness: IntArray
     first: IntArray
     second: IntArray
@@ -60,8 +58,8 @@ def find_threads(regions: Regions, robots: IntArray) -> Threads:
     >>> from knotopt.cable.cable import Cable
     >>> from knotopt.diagram.families import torus_knot
     >>> threads = find_threads(Regions(Cable(torus_knot(2, 3), "L+")), np.array([0, 23]))
-    >>> threads.region.tolist(), threads.witness.tolist()
-    ([0, 1], [20, 20])
+    >>> threads.witness.tolist()
+    [20, 20]
     """
     points = threading_points(regions, Threading.TURNING_POINT)
     times = regions.cable.times[points.point]
@@ -70,7 +68,7 @@ def find_threads(regions: Regions, robots: IntArray) -> Threads:
     chosen = order[np.sort(np.unique(strand, axis=0, return_index=True)[1])]
     boundaries = regions.boundaries
     region = points.region[chosen]
-    return Threads(region, times[chosen], boundaries.a[region], boundaries.b[region])
+    return Threads(times[chosen], boundaries.a[region], boundaries.b[region])
 
 
 def opening_pairs(mesh: Mesh, threads: Threads, within: float) -> IntArray:

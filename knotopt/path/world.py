@@ -90,7 +90,8 @@ class World:
 
     def curve(self, result: PathResult) -> Curve:
         """A path in metres; z is the altitude."""
-        return result.curve.scaled(self.step, self.altitude)
+        points = result.curve.points * self.step + (0.0, 0.0, self.altitude)
+        return replace(result.curve, points=points)
 
     def measures(self, result: PathResult) -> dict[str, float]:
         """Lengths of a path that matter in the room [m]."""

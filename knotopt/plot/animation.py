@@ -14,7 +14,7 @@ from PIL import Image
 from knotopt.arrays import FloatArray
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.record import FlightRecord
-from knotopt.plot.flight import MARGIN, draw_strands, instants, seen_from_above
+from knotopt.plot.flight import MARGIN, caption, draw_strands, instants, seen_from_above
 from knotopt.viewer.colours import ramp
 
 FRAMES = 80
@@ -46,17 +46,17 @@ def animate(plan: FlightPlan, record: FlightRecord, title: str = "", frames: int
     figure = Figure(figsize=(PIXELS / _DPI, PIXELS / _DPI))
     axes = figure.add_axes((0, (1 - _SHARE) / 2, 1, _SHARE))
     axes.set_axis_off()
-    _frame(axes, seen, record)
     figure.text(0.03, 0.94, title or f"{plan.name}: {plan.robots} robots", parse_math=False)
-    caption = figure.text(0.03, 0.03, "", color=_GREY)
+    words = figure.text(0.03, 0.03, "", color=_GREY)
     palette = _palette(len(record.held))
     pictures = []
-    for frame, strands in zip(chosen, seen, strict=True):
+    for frame, strands, (across, up) in zip(chosen, seen, views(seen), strict=True):
         for artist in (*axes.collections, *axes.lines, *axes.texts):
             artist.remove()
+        axes.set(xlim=across, ylim=up)
         draw_strands(axes, strands, record)
         _draw_robots(axes, strands[record.held])
-        caption.set_text(f"{record.times[frame]:.1f} s{_due(plan, record.clock[frame])}")
+        words.set_text(caption(record, plan, frame))
         drawn = io.BytesIO()
         figure.savefig(drawn, format="rgba", dpi=_DPI)
         picture = Image.frombytes("RGBA", (PIXELS, PIXELS), drawn.getvalue()).convert("RGB")
@@ -68,25 +68,18 @@ def animate(plan: FlightPlan, record: FlightRecord, title: str = "", frames: int
     return buffer.getvalue()
 
 
-def _due(plan: FlightPlan, clock: float) -> str:
-    """What the leader did last by the plan, at a time of the plan [s]."""
-    if clock > plan.laid + plan.interval:
-        return ", pulled tight"
-    return next((f", {each.name}" for each in plan.crossings[::-1] if each.time <= clock), "")
+def views(seen: FloatArray) -> FloatArray:
+    """Limits (left, right), (bottom, top) of each frame, shape (frames, 2, 2).
 
-
-def _frame(axes: Axes, seen: FloatArray, record: FlightRecord) -> None:
-    """Show what the cable takes up at the end, and the leader's way to there with its tether.
-
-    Robots that wait outside come into the picture when it is their turn.
+    A frame shows the place of all that is still to be seen: the view closes in as robots that
+    waited outside take their turns, and the finished knot fills it.
     """
-    tether = seen[:, record.held[-2] :, :2].reshape(-1, 2)
-    there = np.concatenate((seen[-1, :, :2], tether))
-    low, high = there.min(axis=0) - MARGIN, there.max(axis=0) + MARGIN
-    width = max(high[0] - low[0], (high[1] - low[1]) / _SHARE)
-    half = np.array((width, _SHARE * width)) / 2
-    (left, bottom), (right, top) = ((low + high) / 2 + sign * half for sign in (-1, 1))
-    axes.set(xlim=(left, right), ylim=(bottom, top))
+    backwards = seen[::-1, :, :2]
+    low = np.minimum.accumulate(backwards.min(axis=1))[::-1] - MARGIN
+    high = np.maximum.accumulate(backwards.max(axis=1))[::-1] + MARGIN
+    half = ((high - low) / (1, _SHARE)).max(axis=1, keepdims=True) / 2 * (1, _SHARE)
+    middle = (low + high) / 2
+    return np.stack((middle - half, middle + half), axis=2)
 
 
 def _draw_robots(axes: Axes, seen: FloatArray) -> None:

@@ -7,6 +7,7 @@ be told apart without colour vision and in print.
 from __future__ import annotations
 
 from collections.abc import Collection
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -16,10 +17,12 @@ from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
-from knotopt.arrays import BoolArray, FloatArray, IntArray
+from knotopt.arrays import FloatArray, IntArray
 from knotopt.cable.cable import Cable
+from knotopt.path.mesh import between
 from knotopt.plot.labels import draw_labels
 from knotopt.supports.regions import Regions
+from knotopt.viewer.squares import active_layers, squares
 
 CABLE_COLOUR = "#222222"
 SUPPORT_COLOUR = "#0072B2"
@@ -36,7 +39,7 @@ def draw_cable(axes: Axes, cable: Cable) -> None:
     """The cable with gaps at under-crossings and its turning points numbered along the path."""
     size = cable.diagram.size
     pieces = []
-    for (c0, r0), (c1, r1) in zip(cable.path, cable.path[1:], strict=False):
+    for (c0, r0), (c1, r1) in pairwise(cable.path):
         if c0 == c1:
             pieces.append([(c0, r0), (c1, r1)])
             continue
@@ -49,26 +52,29 @@ def draw_cable(axes: Axes, cable: Cable) -> None:
     axes.add_collection(
         LineCollection(pieces, colors=CABLE_COLOUR, linewidths=2, capstyle="round", zorder=3)
     )
-    axes.set_xlim(0.2, size + 0.8)
-    axes.set_ylim(0.2, size + 0.8)
-    axes.set_aspect("equal")
-    step = 1 if size <= 20 else 5
-    axes.set_xticks(range(step, size + 1, step))
-    axes.set_yticks(range(step, size + 1, step))
-    axes.tick_params(length=0, labelsize=7, labelcolor="#888888", pad=1)
-    axes.spines[:].set_visible(False)
+    axes.set(xlim=(0.2, size + 0.8), ylim=(0.2, size + 0.8), aspect="equal")
+    grid_axes(axes, size)
     count = len(cable.path)
     corners = cable.points.astype(float)
     draw_labels(
         axes,
         corners,
         [str(index) for index in range(1, count + 1)],
-        _close(corners),
+        between(corners, np.linspace(0, count - 1, CLOSE * count)),  # the path itself
         font=[8] * count,
         distance=NUMBER_OFFSET,
         first=_away(cable).astype(float),
         colours=["#444444"] * count,
     )
+
+
+def grid_axes(axes: Axes, size: int | None = None) -> None:
+    """Axes without lines, ticks at columns and rows of a grid of that size, if one is given."""
+    if size:
+        step = 1 if size <= 20 else 5
+        axes.set(xticks=range(step, size + 1, step), yticks=range(step, size + 1, step))
+    axes.tick_params(length=0, labelsize=7, labelcolor="#888888", pad=1)
+    axes.spines[:].set_visible(False)
 
 
 def draw_robots(axes: Axes, cable: Cable, supports: Collection[int]) -> list[Line2D]:
@@ -84,7 +90,6 @@ def draw_robots(axes: Axes, cable: Cable, supports: Collection[int]) -> list[Lin
 
 def mark_robots(axes: Axes, robots: FloatArray | IntArray, *, size: float) -> list[Line2D]:
     """The robots in their order along a cable, shape (k, 2), with handles for a legend."""
-    filled = {"marker": "D", "color": LIFTING_COLOUR}
     hollow = {
         "marker": "D",
         "markerfacecolor": "white",
@@ -94,7 +99,7 @@ def mark_robots(axes: Axes, robots: FloatArray | IntArray, *, size: float) -> li
     handles = []
     kinds: tuple[tuple[FloatArray | IntArray, str, dict[str, Any]], ...] = (
         (robots[1:-1], "support robot", {"marker": "o", "color": SUPPORT_COLOUR}),
-        (robots[-1:], "leader $p_n$", filled),
+        (robots[-1:], "leader $p_n$", {"marker": "D", "color": LIFTING_COLOUR}),
         (robots[:1], "lifting robot $p_1$", hollow),
     )
     for at, label, style in kinds:
@@ -108,8 +113,7 @@ def draw_spans(axes: Axes, cable: Cable, supports: Collection[int]) -> list[Line
     """The taut cable: straight spans between consecutive robots, as a handle for a legend."""
     robots = cable.points[[0, *sorted(index - 1 for index in supports), -1]]
     return axes.plot(
-        robots[:, 0],
-        robots[:, 1],
+        *robots.T,
         color=SPAN_COLOUR,
         linestyle=(0, (4, 2)),
         linewidth=1.2,
@@ -125,10 +129,7 @@ def draw_regions(axes: Axes, regions: Regions) -> list[Patch]:
     boundary; one without interior cells has nothing to draw.
     """
     size = regions.cable.diagram.size
-    layers = np.zeros((size + 1, size + 1), dtype=np.int64)
-    for region in regions:
-        if region.is_active:
-            layers += _squares(region.interior)
+    layers = active_layers(regions)
     deepest = int(layers.max())
     shades = min(deepest, len(LAYER_COLOURS))
     handles = []
@@ -147,7 +148,7 @@ def draw_regions(axes: Axes, regions: Regions) -> list[Patch]:
             count = str(high) if low == high else f"{low}\N{EN DASH}{high}"
             label = f"{count} active region" + ("s" if high > 1 else "")
             handles.append(Patch(color=LAYER_COLOURS[layer - 1], label=label))
-    passive = [_squares(region.interior) for region in regions if not region.is_active]
+    passive = [squares(region.interior) for region in regions if not region.is_active]
     if np.any(passive):
         style: dict[str, Any] = {
             "fill": False,
@@ -159,19 +160,6 @@ def draw_regions(axes: Axes, regions: Regions) -> list[Patch]:
             axes.add_patch(Rectangle((column, row), 1, 1, zorder=1, **style))
         handles.append(Patch(label="passive region", **style))
     return handles
-
-
-def _close(corners: FloatArray) -> FloatArray:
-    """Points of a polyline, close to each other."""
-    at = np.linspace(0, len(corners) - 1, CLOSE * len(corners))
-    index = np.arange(len(corners))
-    return np.column_stack([np.interp(at, index, corners[:, axis]) for axis in (0, 1)])
-
-
-def _squares(interior: BoolArray) -> BoolArray:
-    """Unit squares [c, c+1] x [r, r+1] that touch an interior cell, shape (N + 1, N + 1)."""
-    padded = np.pad(interior, 1)
-    return padded[1:, 1:] | padded[:-1, 1:] | padded[1:, :-1] | padded[:-1, :-1]
 
 
 def _away(cable: Cable) -> IntArray:

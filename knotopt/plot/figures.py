@@ -29,10 +29,7 @@ def cable_figure(cable: Cable, title: str) -> Figure:
     """One panel: the grid diagram opened at its cut, turning points numbered."""
     figure, (axes,) = _panels(1, cable)
     draw_cable(axes, cable)
-    handles = draw_robots(axes, cable, [])
-    figure.suptitle(title, fontsize=9, parse_math=False)
-    figure.legend(handles=handles[1:], loc="outside lower center", ncols=2, **LEGEND)
-    return figure
+    return titled(figure, title, draw_robots(axes, cable, [])[1:])
 
 
 def supports_figure(
@@ -48,9 +45,7 @@ def supports_figure(
     handles = draw_robots(axes, regions.cable, supports)
     if taut:
         handles += draw_spans(axes, regions.cable, supports)
-    figure.suptitle(title, fontsize=9, parse_math=False)
-    figure.legend(handles=[*handles, *shades], loc="outside lower center", ncols=2, **LEGEND)
-    return figure
+    return titled(figure, title, [*handles, *shades])
 
 
 def before_after_figure(result: LcfResult, title: str) -> Figure:
@@ -64,9 +59,7 @@ def before_after_figure(result: LcfResult, title: str) -> Figure:
     draw_cable(after, cable)
     handles = draw_robots(after, cable, result.supports)
     after.set_title(f"after: {result.robots} robots", fontsize=9)
-    figure.suptitle(title, fontsize=9, parse_math=False)
-    figure.legend(handles=[*handles, *regions], loc="outside lower center", ncols=2, **LEGEND)
-    return figure
+    return titled(figure, title, [*handles, *regions])
 
 
 def save_figure(figure: Figure, path: Path) -> None:
@@ -93,17 +86,27 @@ def minimal_figure(results: Sequence[MinimalSupports], title: str) -> Figure:
         cable = result.cable
         shades = draw_regions(axes, result.lcf.regions)
         draw_cable(axes, cable)
-        handles = [
-            *draw_robots(axes, cable, result.supports),
-            *shades,
-        ]
+        handles = [*draw_robots(axes, cable, result.supports), *shades]
         kind = result.requirements.formulation
         if find_formulation(kind).is_taut:
             handles += draw_spans(axes, cable, result.supports)
         axes.set_title(f"{kind}, cut {cable.cut}: {result.robots} robots", fontsize=9)
+    return titled(figure, title, handles)
+
+
+def titled(figure: Figure, title: str, handles: Sequence[Artist], columns: int = 2) -> Figure:
+    """The figure with a title above it and a legend below."""
     figure.suptitle(title, fontsize=9, parse_math=False)
-    figure.legend(handles=handles, loc="outside lower center", ncols=2, **LEGEND)
+    figure.legend(handles=handles, loc="outside lower center", ncols=columns, **LEGEND)
     return figure
+
+
+def measured_axes(axes: Axes, across: str, up: str) -> None:
+    """Label both axes, units in brackets, in small letters on a pale grid."""
+    axes.set_xlabel(across, fontsize=8)
+    axes.set_ylabel(up, fontsize=8)
+    axes.tick_params(labelsize=7)
+    axes.grid(alpha=0.3)
 
 
 def check_format(path: Path) -> str:

@@ -15,11 +15,11 @@ from knotopt.flight.plan import FlightPlan
 from knotopt.flight.record import FlightRecord
 from knotopt.path.curve import length_along
 from knotopt.plot.cable import CABLE_COLOUR, LIFTING_COLOUR, SUPPORT_COLOUR
-from knotopt.plot.figures import LEGEND, PANEL
+from knotopt.plot.figures import PANEL, measured_axes, titled
 from knotopt.plot.labels import HALO
+from knotopt.plot.path import OVER_COLOUR, UNDER_COLOUR
 from knotopt.viewer.colours import ramp
 
-OVER_COLOUR, UNDER_COLOUR = "#009E73", "#CC79A7"
 ROUTE_COLOUR = "#999999"
 ELEVATION, TURN = 60.0, -15.0  # of the eye in a strip [degrees]
 CABLE_WIDTH, CLEARED_WIDTH = 1.8, 4.2  # of a strand, and of what it clears below it [points]
@@ -42,9 +42,7 @@ def flight_figure(plan: FlightPlan, title: str = "") -> Figure:
     draw_route_heights(figure.add_subplot(grid[0, 1]), plan)
     handles += draw_speeds(figure.add_subplot(grid[1, 1]), plan)
     words = f"{plan.name}: {plan.robots} robots, {plan.schedule} schedule, {plan.duration:.1f} s"
-    figure.suptitle(title or words, fontsize=9, parse_math=False)
-    figure.legend(handles=handles, loc="outside lower center", ncols=4, **LEGEND)
-    return figure
+    return titled(figure, title or words, handles, 4)
 
 
 def draw_route(axes: Axes, plan: FlightPlan) -> list[Line2D]:
@@ -55,33 +53,25 @@ def draw_route(axes: Axes, plan: FlightPlan) -> list[Line2D]:
         *plan.route[:, :2].T, color=ROUTE_COLOUR, linewidth=1, label="leader's route", zorder=3
     )
     places = np.array([crossing.place for crossing in plan.crossings]).reshape(-1, 2)
-    for over, marker, colour, word in _KINDS:
+    for over, (marker, colour, word) in _KINDS.items():
         chosen = [k for k, crossing in enumerate(plan.crossings) if crossing.over == over]
+        label = f"passes {word}, and which span"
         handles += axes.plot(
-            *places[chosen].T,
-            marker=marker,
-            color=colour,
-            linestyle="",
-            markersize=6,
-            label=f"passes {word}, and which span",
-            zorder=4,
+            *places[chosen].T, marker, color=colour, markersize=6, label=label, zorder=4
         )
     for crossing in plan.crossings:
         axes.annotate(
             str(crossing.older),
             crossing.place,
             (7, -7),
-            color=OVER_COLOUR if crossing.over else UNDER_COLOUR,
+            color=_KINDS[crossing.over][1],
             **_NUMBER,
         )
     handles += _draw_numbered(axes, anchors[:, :2])
     near = np.vstack((anchors[:, :2], places, plan.positions[0, -1:, :2]))
     low, high = near.min(axis=0) - plan.world.step, near.max(axis=0) + plan.world.step
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
-    axes.set_xlabel("x [m]", fontsize=8)
-    axes.set_ylabel("y [m]", fontsize=8)
-    axes.tick_params(labelsize=7)
-    axes.grid(alpha=0.3)
+    measured_axes(axes, "x [m]", "y [m]")
     axes.set_axisbelow(True)
     return handles
 
@@ -91,7 +81,7 @@ def draw_route_heights(axes: Axes, plan: FlightPlan) -> None:
     along = length_along(plan.route)
     axes.plot(along, plan.route[:, 2], color=ROUTE_COLOUR, linewidth=1.2)
     for crossing in plan.crossings:
-        marker, colour = ("^", OVER_COLOUR) if crossing.over else ("v", UNDER_COLOUR)
+        marker, colour, _ = _KINDS[crossing.over]
         at, heights = [crossing.route] * 2, [crossing.height, crossing.cable_height]
         axes.plot(at, heights, color=colour, linewidth=1)
         axes.plot(at[:1], heights[:1], marker, color=colour, markersize=5)
@@ -99,11 +89,8 @@ def draw_route_heights(axes: Axes, plan: FlightPlan) -> None:
         outside = 8 if crossing.over else -8
         axes.annotate(str(crossing.older), (at[0], heights[0]), (0, outside), **_NUMBER)
     axes.set_title("dashes: the older cable, with its span's number", fontsize=7)
-    axes.set_xlabel("along the leader's route [m]", fontsize=8)
-    axes.set_ylabel("height [m]", fontsize=8)
+    measured_axes(axes, "along the leader's route [m]", "height [m]")
     axes.margins(y=0.2)
-    axes.tick_params(labelsize=7)
-    axes.grid(alpha=0.3)
 
 
 def draw_speeds(axes: Axes, plan: FlightPlan) -> list[Line2D]:
@@ -114,10 +101,7 @@ def draw_speeds(axes: Axes, plan: FlightPlan) -> list[Line2D]:
         axes.plot(middle, speed, color=colour, linewidth=0.7)
     axes.plot(middle, speeds[:, -1], color=CABLE_COLOUR, linewidth=1)
     axes.set_title("black: the leader; colours: the robots behind it", fontsize=7)
-    axes.set_xlabel("time [s]", fontsize=8)
-    axes.set_ylabel("speed [m/s]", fontsize=8)
-    axes.tick_params(labelsize=7)
-    axes.grid(alpha=0.3)
+    measured_axes(axes, "time [s]", "speed [m/s]")
     return [
         axes.axhline(
             plan.limits.speed, color=LIFTING_COLOUR, linestyle="--", linewidth=1, label="limit"
@@ -154,13 +138,18 @@ def strip_figure(record: FlightRecord, plan: FlightPlan, count: int = 6, title: 
         half = float(np.ptp(here, axis=0).max()) / 2 + MARGIN
         (left, right), (bottom, top) = ((at - half, at + half) for at in middle.tolist())
         axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
-        due = [c.name for c in plan.crossings if c.time <= record.clock[frame]]
-        if record.clock[frame] > plan.laid + plan.interval:
-            due.append("pulled tight")
-        caption = f"{record.times[frame]:.1f} s" + (f", {due[-1]}" if due else "")
-        axes.set_title(caption, fontsize=7)
+        axes.set_title(caption(record, plan, frame), fontsize=7)
     figure.suptitle(title or f"{plan.name}: {plan.robots} robots", fontsize=9, parse_math=False)
     return figure
+
+
+def caption(record: FlightRecord, plan: FlightPlan, frame: int) -> str:
+    """The time of a frame, and what was due last by the plan."""
+    clock = record.clock[frame]
+    due = [crossing.name for crossing in plan.crossings if crossing.time <= clock]
+    if clock > plan.laid + plan.interval:
+        due.append("pulled tight")
+    return ", ".join((f"{record.times[frame]:.1f} s", *due[-1:]))
 
 
 def instants(record: FlightRecord, plan: FlightPlan, count: int) -> list[int]:
@@ -201,23 +190,18 @@ def draw_strands(axes: Axes, seen: FloatArray, record: FlightRecord) -> None:
 
 def _draw_numbered(axes: Axes, places: FloatArray) -> list[Line2D]:
     """Robots with their numbers, the leader a diamond; handles for a legend."""
-    handles = axes.plot(
-        *places[:-1].T,
-        "o",
-        color=SUPPORT_COLOUR,
-        markersize=5,
-        label="robots, numbered from the tail",
-        zorder=5,
-    )
-    handles += axes.plot(
-        *places[-1:].T, "D", color=LIFTING_COLOUR, markersize=5.5, label="leader", zorder=5
-    )
+    handles = []
+    for at, label, marker, colour, size in (
+        (places[:-1], "robots, numbered from the tail", "o", SUPPORT_COLOUR, 5),
+        (places[-1:], "leader", "D", LIFTING_COLOUR, 5.5),
+    ):
+        handles += axes.plot(*at.T, marker, color=colour, markersize=size, label=label, zorder=5)
     for number, place in enumerate(places, 1):
         axes.annotate(str(number), tuple(place), (-6, 6), color="#444444", **_NUMBER)
     return handles
 
 
-_KINDS = ((True, "^", OVER_COLOUR, "over"), (False, "v", UNDER_COLOUR, "under"))
+_KINDS = {True: ("^", OVER_COLOUR, "over"), False: ("v", UNDER_COLOUR, "under")}
 _NUMBER: dict[str, Any] = {
     "textcoords": "offset points",
     "fontsize": 6.5,

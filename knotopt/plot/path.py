@@ -11,12 +11,13 @@ from mpl_toolkits.mplot3d import Axes3D
 from knotopt.arrays import FloatArray
 from knotopt.path.curve import length_along
 from knotopt.path.result import PathResult
-from knotopt.plot.cable import CABLE_COLOUR, LIFTING_COLOUR, SUPPORT_COLOUR, mark_robots
+from knotopt.plot.cable import CABLE_COLOUR, LIFTING_COLOUR, SUPPORT_COLOUR, grid_axes, mark_robots
+from knotopt.plot.figures import measured_axes
 from knotopt.plot.labels import HALO, draw_labels
 
 GAP_SHARE = 0.14  # half-width of the gap in a lower strand, at most [grid steps]
 ROBOT_WEIGHT = 5  # that a robot's middle counts more than a sample of the path under a label
-OVER_COLOUR = "#009E73"
+OVER_COLOUR, UNDER_COLOUR = "#009E73", "#CC79A7"
 GRID_COLOUR = "#CCCCCC"
 
 
@@ -29,8 +30,7 @@ def draw_plan(axes: Axes, result: PathResult) -> list[Line2D]:
         The robots, numbered as turning points, as handles for a legend.
     """
     plan, robots = result.report.samples[:, :2], result.robots[:, :2]
-    grid_path = result.cable.points
-    axes.plot(grid_path[:, 0], grid_path[:, 1], color=GRID_COLOUR, linewidth=1, zorder=1)
+    axes.plot(*result.cable.points.T, color=GRID_COLOUR, linewidth=1, zorder=1)
     axes.add_collection(
         LineCollection(_pieces(result), colors=CABLE_COLOUR, linewidths=1.8, zorder=3)
     )
@@ -38,11 +38,7 @@ def draw_plan(axes: Axes, result: PathResult) -> list[Line2D]:
     low = np.minimum(plan.min(axis=0), 1) - 0.5
     high = np.maximum(plan.max(axis=0), size) + 0.5
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
-    step = 1 if size <= 20 else 5
-    axes.set_xticks(range(step, size + 1, step))
-    axes.set_yticks(range(step, size + 1, step))
-    axes.tick_params(length=0, labelsize=7, labelcolor="#888888", pad=1)
-    axes.spines[:].set_visible(False)
+    grid_axes(axes, size)
     axes.set_axisbelow(True)
     crossings = result.report.crossings.point
     numbers = (1, *result.supports, len(result.cable.path))
@@ -70,17 +66,12 @@ def draw_heights(axes: Axes, result: PathResult) -> list[Line2D]:
     first = where == crossings.first[which]
     over = np.where(first, crossings.gap[which] > 0, crossings.gap[which] < 0)
     handles = []
-    for chosen, marker, label in ((over, "^", "passes over"), (~over, "v", "passes under")):
-        handles += axes.plot(
-            at[chosen],
-            height[chosen],
-            linestyle="",
-            marker=marker,
-            markersize=5,
-            color=OVER_COLOUR if marker == "^" else "#CC79A7",
-            label=label,
-            zorder=3,
-        )
+    for chosen, marker, colour, label in (
+        (over, "^", OVER_COLOUR, "passes over"),
+        (~over, "v", UNDER_COLOUR, "passes under"),
+    ):
+        x, y = at[chosen], height[chosen]
+        handles += axes.plot(x, y, marker, color=colour, markersize=5, label=label, zorder=3)
     for s, z, k in zip(at, height, which, strict=True):
         axes.annotate(
             f"c{k + 1}",
@@ -99,11 +90,8 @@ def draw_heights(axes: Axes, result: PathResult) -> list[Line2D]:
         axes.annotate(
             str(number), (s, 0), (3, 3), textcoords="offset points", fontsize=6, path_effects=HALO
         )
-    axes.set_xlabel("length along the cable [grid steps]", fontsize=8)
-    axes.set_ylabel("height [grid steps]", fontsize=8)
-    axes.tick_params(labelsize=7)
+    measured_axes(axes, "length along the cable [grid steps]", "height [grid steps]")
     axes.margins(y=0.25)
-    axes.grid(alpha=0.3)
     return handles
 
 
@@ -113,18 +101,15 @@ def draw_space(axes: Axes3D, result: PathResult) -> None:
     size = result.cable.diagram.size
     low = min(-0.5, float(samples[:, 2].min()) - 0.2)
     axes.plot(samples[:, 0], samples[:, 1], low, color=GRID_COLOUR, linewidth=1)
-    axes.plot(samples[:, 0], samples[:, 1], samples[:, 2], color=CABLE_COLOUR, linewidth=1.4)
+    axes.plot(*samples.T, color=CABLE_COLOUR, linewidth=1.4)
     robots = result.robots
     axes.scatter(*robots[1:-1].T, color=SUPPORT_COLOUR, s=18)
     axes.scatter(*robots[-1], color=LIFTING_COLOUR, marker="D", s=22)
     axes.scatter(*robots[0], color="white", edgecolor=LIFTING_COLOUR, marker="D", s=22)
     axes.set_box_aspect((1, 1, 0.3))
     axes.set_zlim(low, max(0.5, float(samples[:, 2].max()) + 0.2))
-    for low_end, high_end, limits in (
-        (samples[:, 0].min(), samples[:, 0].max(), axes.set_xlim),
-        (samples[:, 1].min(), samples[:, 1].max(), axes.set_ylim),
-    ):
-        limits(min(0.5, low_end), max(size + 0.5, high_end))
+    for ends, limits in zip(samples.T, (axes.set_xlim, axes.set_ylim), strict=False):
+        limits(min(0.5, ends.min()), max(size + 0.5, ends.max()))
     axes.set_title("heights drawn larger; shadow in grey", fontsize=7)
     axes.view_init(elev=32, azim=-60)
     axes.tick_params(labelsize=6, pad=-2)

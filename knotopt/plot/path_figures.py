@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from knotopt.path.measures import status_word
 from knotopt.path.relaxation import RelaxationRun, straightening
 from knotopt.path.result import PathResult
-from knotopt.plot.cable import draw_cable, draw_robots, mark_robots
-from knotopt.plot.figures import LEGEND, PANEL
+from knotopt.plot.cable import draw_cable, draw_robots, grid_axes, mark_robots
+from knotopt.plot.figures import PANEL, titled
 from knotopt.plot.path import GRID_COLOUR, draw_heights, draw_plan, draw_space
 
 NAMES = {"nlp": "program", "relaxation": "relaxation"}
@@ -33,9 +33,7 @@ def path_figure(results: Sequence[PathResult], title: str) -> Figure:
         plan.set_title(_caption(result), fontsize=8, parse_math=False)
         draw_space(figure.add_subplot(grid[2 * row, 1], projection="3d"), result)
         handles += draw_heights(figure.add_subplot(grid[2 * row + 1, :]), result)
-    figure.suptitle(title, fontsize=9, parse_math=False)
-    figure.legend(handles=handles, loc="outside lower center", ncols=5, **LEGEND)
-    return figure
+    return titled(figure, title, handles, 5)
 
 
 def relaxation_figure(
@@ -63,9 +61,7 @@ def relaxation_figure(
     panels[5].set_title(f"nodes over {run.steps} steps", fontsize=8)
     for axes in panels:
         axes.set_aspect("equal")
-    figure.suptitle(title, fontsize=9, parse_math=False)
-    figure.legend(handles=handles, loc="outside lower center", ncols=3, **LEGEND)
-    return figure
+    return titled(figure, title, handles, 3)
 
 
 def braid_figure(result: PathResult, title: str) -> Figure:
@@ -78,9 +74,7 @@ def braid_figure(result: PathResult, title: str) -> Figure:
     left.set_title(f"every corner held: {count} robots", fontsize=8)
     draw_plan(right, result)
     right.set_title(f"reduced: {len(result.supports) + 2} robots", fontsize=8)
-    figure.suptitle(title, fontsize=9, parse_math=False)
-    figure.legend(handles=handles, loc="outside lower center", ncols=3, **LEGEND)
-    return figure
+    return titled(figure, title, handles, 3)
 
 
 def _caption(result: PathResult, *, brief: bool = False) -> str:
@@ -99,9 +93,9 @@ def _step_at(run: RelaxationRun, share: float) -> int:
 
 def _draw_nodes(axes: Axes, run: RelaxationRun, step: int, *, springs: bool) -> None:
     """The polyline and its nodes at a step, with all springs or with the straightening forces."""
-    start, now = run.trajectory[0], run.trajectory[step]
-    axes.plot(start[:, 0], start[:, 1], color=GRID_COLOUR, linewidth=1, zorder=1)
-    axes.plot(now[:, 0], now[:, 1], color="#222222", linewidth=1.6, zorder=3)
+    now = run.trajectory[step]
+    axes.plot(*run.trajectory[0].T, color=GRID_COLOUR, linewidth=1, zorder=1)
+    axes.plot(*now.T, color="#222222", linewidth=1.6, zorder=3)
     if springs:
         i, j = np.triu_indices(len(now), 1)
         lines = np.stack((now[i], now[j]), axis=1)
@@ -114,18 +108,15 @@ def _draw_nodes(axes: Axes, run: RelaxationRun, step: int, *, springs: bool) -> 
         axes.quiver(*now.T, *force.T, color=FORCE_COLOUR, scale=12, width=0.008, zorder=4)
     axes.plot(*now[~run.fixed].T, "o", color=BEFORE_COLOUR, markersize=3, zorder=5)
     mark_robots(axes, now[run.fixed], size=6)
-    axes.tick_params(length=0, labelsize=7, labelcolor="#888888", pad=1)
-    axes.spines[:].set_visible(False)
+    grid_axes(axes)
 
 
 def _draw_trajectories(axes: Axes, run: RelaxationRun) -> None:
     """The way of every node, from the grid to the end."""
-    start, end = run.trajectory[0], run.trajectory[-1]
-    axes.plot(start[:, 0], start[:, 1], color=GRID_COLOUR, linewidth=1, zorder=1)
-    axes.plot(end[:, 0], end[:, 1], color="#222222", linewidth=1.2, zorder=2)
+    axes.plot(*run.trajectory[0].T, color=GRID_COLOUR, linewidth=1, zorder=1)
+    axes.plot(*run.trajectory[-1].T, color="#222222", linewidth=1.2, zorder=2)
     ways = np.moveaxis(run.trajectory, 0, 1)
     axes.add_collection(
         LineCollection(list(ways[~run.fixed]), colors=FORCE_COLOUR, linewidths=1, zorder=3)
     )
-    axes.tick_params(length=0, labelsize=7, labelcolor="#888888", pad=1)
-    axes.spines[:].set_visible(False)
+    grid_axes(axes)

@@ -7,7 +7,6 @@ two strands cross once in their crossing's disc and nowhere else.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import count
 
@@ -15,7 +14,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
-from knotopt.arrays import FloatArray
+from knotopt.arrays import ComplexArray, FloatArray
 from knotopt.path.curve import length_along
 from knotopt.plot.cable import CABLE_COLOUR
 from knotopt.plot.packing import Triangle, circle_packing
@@ -52,7 +51,7 @@ def rope_curve(state: RopeState) -> FloatArray:
         raise ValueError(f"{state}: not a rope in the plane")
     curve = _STRAIGHT
     if state.crossings:
-        curve = _level(_trimmed(_level(_through(_discs(state)))))
+        curve = _level(_trimmed(_level(_through(*_discs(state)))))
     low, high = curve[:, :2].min(axis=0), curve[:, :2].max(axis=0)
     plan = (curve[:, :2] - (low + high) / 2) / (high - low).max()
     curve = np.hstack((plan, curve[:, 2:]))
@@ -103,29 +102,8 @@ def draw_rope(
     axes.plot([x], [y], "o", color=CABLE_COLOUR, markersize=2.2 * width, zorder=4)
 
 
-@dataclass(frozen=True)
-class _Discs:
-    """Which discs a rope's drawing has, and which of them touch.
-
-    Attributes
-    ----------
-    rope : list of int
-        Those along the rope; those of crossings come twice.
-    height : list of float
-        Height of the rope in each of these: +-1 at crossings, else 0.
-    triangles : list of (int, int, int)
-        Discs that touch one another, counterclockwise.
-    outer : list of int
-        Those around the drawing.
-    """
-
-    rope: list[int]
-    height: list[float]
-    triangles: list[Triangle]
-    outer: list[int]
-
-
-def _discs(state: RopeState) -> _Discs:
+def _discs(state: RopeState) -> tuple[ComplexArray, FloatArray, FloatArray]:
+    """Centres and radii of the discs along the rope, those of crossings twice, and its heights."""
     new = count()
     crossing: list[int] = []  # at each visit
     for visit, entry in enumerate(state.code):
@@ -155,7 +133,8 @@ def _discs(state: RopeState) -> _Discs:
         else:
             middle = next(new)
             triangles += [(a, b, middle) for a, b in _pairs(border)]
-    return _Discs(rope, height, triangles, outer)
+    centres, radii = circle_packing(triangles, outer)
+    return centres[rope], radii[rope], np.array(height)
 
 
 def _outwardness(face: tuple[int, ...], last: int) -> tuple[bool, int, int, list[int]]:
@@ -180,10 +159,8 @@ def _pairs(around: list[int]) -> list[tuple[int, int]]:
     return list(zip(around, around[1:] + around[:1], strict=True))
 
 
-def _through(discs: _Discs) -> FloatArray:
-    """The rope's points, shape (m, 3)."""
-    centres, radii = circle_packing(discs.triangles, discs.outer)
-    centre, radius = centres[discs.rope], radii[discs.rope]
+def _through(centre: ComplexArray, radius: FloatArray, height: FloatArray) -> FloatArray:
+    """Points of the rope through its discs, shape (m, 3)."""
     share = radius[:-1] / (radius[:-1] + radius[1:])
     touch = centre[:-1] + share * np.diff(centre)
     middle, scale = centre[1:-1], radius[1:-1]
@@ -193,7 +170,7 @@ def _through(discs: _Discs) -> FloatArray:
     chord = start[:, None] + (end - start)[:, None] * along[:-1]
     arc = chord / (1 + np.sqrt(np.maximum(0, 1 - np.abs(chord) ** 2)))
     arcs = middle[:, None] + scale[:, None] * arc
-    height = np.repeat(discs.height[1:-1], ARC_POINTS - 1)
+    height = np.repeat(height[1:-1], ARC_POINTS - 1)
     plan = np.concatenate((centre[:1], arcs.ravel(), touch[-1:], centre[-1:]))
     return np.stack((plan.real, plan.imag, np.concatenate(([0.0], height, [0.0, 0.0]))), axis=1)
 

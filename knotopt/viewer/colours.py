@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 # Okabe and Ito's palette without the yellow, which is lost on white, in the order of the rainbow;
 # robots carry numbers as well.
 STOPS = ((0, 114, 178), (86, 180, 233), (0, 158, 115), (230, 159, 0), (213, 94, 0), (204, 121, 167))
@@ -17,14 +19,10 @@ def ramp(count: int) -> list[str]:
     >>> ramp(1)
     ['#0072b2']
     """
-    last = len(STOPS) - 1
-    colours = []
-    for index in range(count):
-        place = last * index / max(count - 1, 1)
-        low = min(int(place), last - 1)
-        share = place - low
-        mixed = (
-            round(a + share * (b - a)) for a, b in zip(STOPS[low], STOPS[low + 1], strict=True)
-        )
-        colours.append("#" + "".join(f"{value:02x}" for value in mixed))
-    return colours
+    stops = np.arange(len(STOPS))
+    places = stops[-1] * np.arange(count) / max(count - 1, 1)
+    mixed = [
+        np.interp(places, stops, channel).round().astype(int)
+        for channel in zip(*STOPS, strict=True)
+    ]
+    return [f"#{r:02x}{g:02x}{b:02x}" for r, g, b in zip(*mixed, strict=True)]

@@ -13,13 +13,13 @@ from typing import Any
 
 import numpy as np
 
-from knotopt.arrays import IntArray
 from knotopt.document.pages import filled, page, part
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.record import FlightRecord
 from knotopt.supports.regions import Regions
 from knotopt.viewer.colours import ramp
 from knotopt.viewer.packing import frame_count, packed_motion, packed_text, resampled
+from knotopt.viewer.squares import active_layers
 
 SCRIPTS = ("unpack", "catenary", "canvas", "flight", "scene", "above", "heights", "player")
 ROUTE_POINTS = 1500  # of the leader's route that are drawn, at most
@@ -92,7 +92,7 @@ def _data(
         "step": plan.world.step,
         "altitude": plan.world.altitude,
         "size": plan.cable.diagram.size,
-        "layers": _layers(plan).tolist(),
+        "layers": active_layers(Regions(plan.cable)).tolist(),
         "crossings": [
             {
                 "name": crossing.name,
@@ -129,20 +129,6 @@ def _record(name: str, record: FlightRecord, count: int) -> dict[str, Any]:
     }
 
 
-def _layers(plan: FlightPlan) -> IntArray:
-    """Active regions over each unit square [c, c + 1] x [r, r + 1], shape (N + 1, N + 1).
-
-    A region covers the squares that touch an interior cell, up to its boundary.
-    """
-    regions = Regions(plan.cable)
-    size = plan.cable.diagram.size
-    layers = np.zeros((size + 1, size + 1), dtype=np.int64)
-    for index in regions.active.tolist():
-        inside = np.pad(regions[index].interior, 1)
-        layers += inside[1:, 1:] | inside[:-1, 1:] | inside[1:, :-1] | inside[:-1, :-1]
-    return layers
-
-
 def _facts(plan: FlightPlan) -> str:
     facts = [
         ("robots", str(plan.robots)),
@@ -173,7 +159,7 @@ def _planned(plan: FlightPlan) -> str:
         return _section(
             "planned", "Planned crossings", "<p>The route crosses no cable that is laid.</p>"
         )
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for index, crossing in enumerate(plan.crossings):
         x, y = crossing.place
         cells = (
@@ -187,25 +173,24 @@ def _planned(plan: FlightPlan) -> str:
             f'<button type="button" class="go" data-crossing="{index}" '
             f'aria-label="Go to {crossing.time:.1f} seconds">{crossing.time:.1f}</button>'
         )
-        rows.append(f"<tr><td>{go}</td>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
+        rows.append((go, *cells))
     heads = ("time [s]", "crossing", "place [m]", "route [m]", "cable [m]", "gap [m]")
-    return _section("planned", "Planned crossings", _table(heads, "".join(rows)))
+    return _section("planned", "Planned crossings", _table(heads, rows))
 
 
 def _events(events: Sequence[Mapping[str, str]]) -> str:
     if not events:
         return ""
     heads = list(dict.fromkeys(column for row in events for column in row))
-    rows = "".join(
-        "<tr>" + "".join(f"<td>{escape(row.get(head, ''))}</td>" for head in heads) + "</tr>"
-        for row in events
-    )
+    rows = [[escape(row.get(head, "")) for head in heads] for row in events]
     return _section("events", "Crossings as executed", _table(heads, rows))
 
 
-def _table(heads: Sequence[str], rows: str) -> str:
+def _table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A table of texts over cells of HTML."""
     head = "".join(f'<th scope="col">{escape(text)}</th>' for text in heads)
-    return f"<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>"
+    body = "".join("<tr>" + "".join(f"<td>{each}</td>" for each in row) + "</tr>" for row in rows)
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 
 
 def _section(name: str, title: str, content: str) -> str:

@@ -10,7 +10,8 @@ import pytest
 from matplotlib.colors import to_rgb
 from PIL import Image
 
-from knotopt.plot.animation import FRAME_TIME, LAST_TIME, PIXELS, animate
+from knotopt.plot.animation import FRAME_TIME, LAST_TIME, PIXELS, animate, views
+from knotopt.plot.flight import MARGIN, instants, seen_from_above
 from knotopt.viewer.colours import ramp
 from tests.helpers.small_flight import small_plan, small_record
 
@@ -48,17 +49,35 @@ def test_frames_and_their_times() -> None:
 def test_robots_fly_as_recorded() -> None:
     leader = ramp(PLAN.robots)[-1]  # no span begins there: its colour is the disc's alone
     shown = frames(animate(PLAN, RECORD, frames=8))
-    places = np.array([pixels(frame, leader).mean(axis=0) for frame in shown])
     assert all(len(pixels(frame, leader)) > 100 for frame in shown)
+    down_across = np.array([pixels(frame, leader).mean(axis=0) for frame in shown])
+    # The view closes in: places in it, as shares of its width, go back to metres.
+    low, high = np.moveaxis(views(seen_from_above(RECORD.cable[instants(RECORD, PLAN, 8)])), 2, 0)
+    width = (high - low)[:, :1]
+    middle = (low + high) / 2 * (1, -1)
+    places = middle + width * (down_across[:, ::-1] / PIXELS - 0.5)
     # From the file to the anchor: by x and y as seen at a slant, straight, then it hovers.
     way = np.diff(places, axis=0)
-    assert np.linalg.norm(places[-1] - places[0]) > PIXELS / 4
-    assert np.linalg.norm(way[-1]) < 1 < np.linalg.norm(way[0])
+    assert np.linalg.norm(places[-1] - places[0]) > width[0] / 4
+    assert np.linalg.norm(way[-1]) < width[0] / PIXELS < np.linalg.norm(way[0])
     turn = np.radians(-15)
     x, y = (RECORD.robots[-1, -1] - RECORD.robots[0, -1])[:2]
     right, away = x * np.cos(turn) - y * np.sin(turn), x * np.sin(turn) + y * np.cos(turn)
-    down, across = places[-1] - places[0]
+    across, down = places[-1] - places[0]
     assert across / down == pytest.approx(right / (-away * np.sin(np.radians(60))), rel=0.02)
+
+
+def test_all_that_is_still_to_be_seen_is_in_view() -> None:
+    seen = seen_from_above(RECORD.cable[instants(RECORD, PLAN, 20)])
+    (left, right), (bottom, top) = np.moveaxis(views(seen), 0, 2)
+    for frame in range(20):
+        later = seen[frame:, :, :2]
+        assert (later > (left[frame], bottom[frame])).all()
+        assert (later < (right[frame], top[frame])).all()
+    # It only ever closes in, on the finished knot, which reaches from side to side or as high.
+    assert (np.diff(right - left) <= 1e-9).all()
+    room = (right[-1] - left[-1], top[-1] - bottom[-1]) - np.ptp(seen[-1, :, :2], axis=0)
+    assert room.min() == pytest.approx(2 * MARGIN)
 
 
 @pytest.mark.parametrize("lift", [1.0, -1.0])
