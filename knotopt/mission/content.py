@@ -13,6 +13,9 @@ from knotopt.supports.support_set import place
 from knotopt.verify.flight_limits import LimitsReport, Worst
 from knotopt.verify.flight_states import StateComparison, format_states
 
+MEASURED = ("deviation", "speed", "acceleration", "separation", "cable", "lowest", "highest")
+"""What is said of the fitted polynomials, in this order."""
+
 
 def mission_content(mission: Mission) -> dict[str, Any]:
     """Everything found out, for JSON."""
@@ -58,10 +61,7 @@ def flight_content(name: str, flight: Flight) -> dict[str, Any]:
     verdict, record, examination = flight.verdict, flight.record, flight.examination
     return {
         "flight": name,
-        "noise": record.disturbance.noise,
-        "wind": list(record.disturbance.wind),
-        "gust": record.disturbance.gust,
-        "seed": record.disturbance.seed,
+        **asdict(record.disturbance),
         "outcome": str(verdict.outcome),
         "knot": verdict.knot,
         "polynomial": verdict.polynomial,
@@ -110,13 +110,7 @@ def _fit_content(fit: FitReport) -> dict[str, Any]:
     return {
         "parts": fit.parts,
         "pieces": fit.pieces,
-        "deviation": _number(fit.deviation.value),
-        "speed": _number(fit.speed.value),
-        "acceleration": _number(fit.acceleration.value),
-        "separation": _number(fit.separation.value),
-        "cable": _number(fit.cable.value),
-        "lowest": _number(fit.lowest.value),
-        "highest": _number(fit.highest.value),
+        **{name: _number(getattr(fit, name).value) for name in MEASURED},
         "gaps": [
             {
                 "crossing": each.crossing.name,
