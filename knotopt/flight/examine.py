@@ -16,6 +16,7 @@ import numpy as np
 from knotopt.arrays import FloatArray
 from knotopt.flight.plan import FlightPlan, MotionPlan, PlannedCrossing
 from knotopt.flight.record import FlightRecord
+from knotopt.path.curve import length_along
 from knotopt.verify.flight import leader_events, nearest_approaches
 from knotopt.verify.flight_limits import LimitsReport, check_limits
 from knotopt.verify.flight_places import TOLERANCE, executed_states, planned_states
@@ -92,9 +93,8 @@ def examine_plan(plan: FlightPlan) -> Examination:
     """
     report = _limits(plan, plan.times, plan.positions, hover=True)
     track = plan.positions[: plan.laying, -1]
-    moved = np.linalg.norm(np.diff(track, axis=0), axis=1)
-    along = np.concatenate(([0.0], np.cumsum(moved)))
-    moving = np.concatenate(([True], moved > 0))
+    along = length_along(track)
+    moving = np.concatenate(([True], np.diff(track, axis=0).any(axis=1)))
     passes = np.interp(plan.passes, plan.times[: plan.laying], along)
     found = plan_word(track[moving], passes, plan.anchors, plan.lengths)
     cable = plan.cable

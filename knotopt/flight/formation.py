@@ -15,6 +15,7 @@ from scipy.interpolate import CubicSpline
 from knotopt.arrays import FloatArray
 from knotopt.flight.limits import FlightLimits
 from knotopt.flight.route import Route
+from knotopt.path.curve import length_along
 from knotopt.path.world import World
 
 NODES = 0.03  # between nodes of the path coordinate [m]
@@ -108,8 +109,7 @@ class Formation:
         end = self.route.length * self.world.step
         along = np.linspace(0, end, int(np.ceil(end / FINE)) + 1)
         points = self._curve(along)
-        chords = np.linalg.norm(np.diff(points, axis=0), axis=1)
-        return along, points, np.concatenate(([0.0], np.cumsum(chords)))
+        return along, points, length_along(points)
 
     def arc_length(self, along: float) -> float:
         """Arc length of the route up to a coordinate [m]."""

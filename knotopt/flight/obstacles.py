@@ -52,10 +52,9 @@ class Obstacles:
     def allows_short_cut(self, piece: FloatArray) -> bool:
         """Whether a piece of a way may be replaced by the straight line between its ends."""
         line = shapely.LineString(piece[[0, -1]])
-        if len(self.robots):
-            robots = shapely.points(self.robots)
-            if shapely.distance(line, robots).min() < self.clear:
-                return False
+        apart = shapely.distance(line, shapely.points(self.robots))
+        if apart.min(initial=np.inf) < self.clear:
+            return False
         if not self.has_cable:
             return True
         ends = [shapely.distance(shapely.Point(end), self.cable) for end in (piece[0], piece[-1])]
@@ -105,15 +104,12 @@ def obstacles_between(
     """
     lines = tuple(shapely.LineString(points) for points in laid)
     cable = shapely.union_all([*lines, *(shapely.LineString(points) for points in barriers)])
-    ends = np.stack((start, goal))
-    others = robots[[bool(np.hypot(*(ends - robot).T).min() > 1e-6) for robot in robots]]
+    others = robots[nearest(robots, np.stack((start, goal))) > 1e-6]
     posts = np.concatenate((robots, goal[None]))
-    return Obstacles(lines, cable, others.reshape(-1, 2), posts, clear)
+    return Obstacles(lines, cable, others, posts, clear)
 
 
 def nearest(points: FloatArray, robots: FloatArray) -> FloatArray:
-    """Distance of each point from the nearest robot."""
-    if not len(robots):
-        return np.full(len(points), np.inf)
-    apart: FloatArray = np.linalg.norm(points[:, None] - robots[None], axis=2).min(axis=1)
-    return apart
+    """Distance of each point from the nearest robot, infinite if there is none."""
+    apart = np.linalg.norm(points[:, None] - robots[None], axis=2)
+    return np.asarray(apart.min(axis=1, initial=np.inf))

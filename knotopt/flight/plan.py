@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from typing import Self
 
 import numpy as np
@@ -174,7 +174,6 @@ def with_supports(
     motion: MotionPlan, name: str, cable: Cable, supports: tuple[int, ...], chosen_by: str
 ) -> FlightPlan:
     """A motion as the flight plan of a knot, with the attributes of `FlightPlan`."""
-    motion_values = {each.name: getattr(motion, each.name) for each in fields(MotionPlan)}
     return FlightPlan(
-        **motion_values, name=name, cable=cable, supports=supports, chosen_by=chosen_by
+        **vars(motion), name=name, cable=cable, supports=supports, chosen_by=chosen_by
     )

@@ -16,6 +16,7 @@ from scipy.sparse.linalg import spsolve
 
 from knotopt.arrays import FloatArray
 from knotopt.flight.gates import Gate, RouteShape
+from knotopt.path.curve import length_along
 
 SAMPLE = 0.04  # between points of a route while it is smoothed [grid steps]
 SMOOTHING = 0.3  # length over which corners are rounded [grid steps]
@@ -220,7 +221,7 @@ def _sampled(points: FloatArray) -> FloatArray:
 
 def _profile(piece: FloatArray, at: list[int], passages: Sequence[Passage]) -> FloatArray:
     """Heights along a way: level through gates, ramps between, zero at both ends."""
-    along = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(piece, axis=0), axis=1))))
+    along = length_along(piece)
     end = along[-1]
     places, values = [0.0], [0.0]
     for k, (index, passage) in enumerate(zip(at, passages, strict=True)):

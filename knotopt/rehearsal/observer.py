@@ -38,7 +38,7 @@ class Observer:
         planner, simulation = self.planner, self.simulation
         found = list(planner.modelled_cable(spans).spans)
         robots = self._in_plan(simulation.robots)
-        arrived = np.linalg.norm(robots - planner.places, axis=1) < ARRIVED
+        arrived = np.linalg.norm(robots - planner.layout.places, axis=1) < ARRIVED
         for i in np.flatnonzero(arrived[:spans] & arrived[1 : spans + 1]).tolist():
             found[i] = self._in_grid(i)
         return LaidCable(found)
@@ -76,7 +76,7 @@ class Observer:
                     places = [along for along, _ in gates]
                 ranks = (rank for _, rank in gates)
                 found.setdefault(older, []).extend(zip(ranks, places, strict=True))
-        word = planner.words[span - 1]
+        word = planner.layout.words[span - 1]
         if 0 < done < len(word) and word[done - 1].older == word[done].older:
             last, wanted = word[done - 1].rank, word[done].rank
             if last is not None and wanted is not None:
