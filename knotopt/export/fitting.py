@@ -193,8 +193,7 @@ def _error(track: FloatArray) -> float:
 def _basis(count: int) -> FloatArray:
     """Orthonormal polynomials at evenly spaced places, shape (count, 8)."""
     places = np.linspace(-1, 1, count)
-    basis: FloatArray = np.linalg.qr(np.polynomial.legendre.legvander(places, DEGREE))[0]
-    return basis
+    return np.asarray(np.linalg.qr(np.polynomial.legendre.legvander(places, DEGREE))[0])
 
 
 def _finely(times: FloatArray, track: FloatArray) -> tuple[FloatArray, FloatArray]:

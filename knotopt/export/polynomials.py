@@ -88,8 +88,7 @@ class Polynomials:
         before, after = np.vstack((rest, last)), np.vstack((first, rest))
         if not derivative:
             before[0], after[-1] = after[0], before[-1]
-        found: FloatArray = np.linalg.norm(after - before, axis=1)
-        return found
+        return np.asarray(np.linalg.norm(after - before, axis=1))
 
     def csv(self) -> str:
         """The file for Crazyswarm2, with every digit of the coefficients.

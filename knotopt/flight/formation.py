@@ -87,14 +87,12 @@ class Formation:
 
     def point(self, along: float) -> FloatArray:
         """The route at a coordinate, shape (3,) [m]."""
-        point: FloatArray = self._curve(along)
-        return point
+        return np.asarray(self._curve(along))
 
     def positions(self, s: FloatArray) -> FloatArray:
         """Positions of the robots at path coordinates, shape (K, R, 3) [m]."""
         along, _, _ = self._along(s)
-        found: FloatArray = self._curve(along)
-        return found
+        return np.asarray(self._curve(along))
 
     def derivatives(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
         """First and second derivative of the positions by the path coordinate, (K, R, 3)."""
@@ -137,5 +135,4 @@ class Formation:
     def farthest(self) -> FloatArray:
         """The farthest that consecutive robots get apart, shape (R - 1,) [m]."""
         positions = self.positions(self.nodes)
-        apart: FloatArray = np.linalg.norm(np.diff(positions, axis=1), axis=2).max(axis=0)
-        return apart
+        return np.asarray(np.linalg.norm(np.diff(positions, axis=1), axis=2).max(axis=0))

@@ -120,8 +120,7 @@ def are_in_order(before: Sequence[Gate], after: Sequence[Gate], apart: float) ->
         ahead *= np.sign(second.rank - first.rank)
     else:
         ahead = np.abs(ahead)
-    far_enough: BoolArray = ahead >= apart - 1e-9
-    return far_enough
+    return np.asarray(ahead >= apart - 1e-9)
 
 
 def all_in_order(gates: Sequence[Gate], apart: float) -> bool:

@@ -19,7 +19,7 @@ from knotopt.flight.laid_cable import LaidCable, hanging_cable
 from knotopt.flight.layout import Layout
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan, MotionPlan, PlannedCrossing, with_supports
-from knotopt.flight.request import SCHEDULES
+from knotopt.flight.request import FlightRequest
 from knotopt.flight.route import SAMPLE, Passage, SpanRoute, SpanShape, build_route
 from knotopt.flight.router import Router, Way
 from knotopt.path.world import World
@@ -295,8 +295,7 @@ class FlightPlanner:
 
 def sample_times(count: int) -> FloatArray:
     """Times of the first samples of a plan [s]."""
-    times: FloatArray = INTERVAL * np.arange(count, dtype=np.float64)
-    return times
+    return np.asarray(INTERVAL * np.arange(count, dtype=np.float64))
 
 
 def with_margin(limits: FlightLimits) -> tuple[float, float]:
@@ -344,9 +343,7 @@ def plan_flight(
     >>> [crossing.name for crossing in plan.crossings]
     ['span 4 over span 1', 'span 4 under span 1', 'span 4 over span 2']
     """
-    if schedule not in SCHEDULES:
-        raise RequirementError(f"a schedule is one of {', '.join(SCHEDULES)}, not {schedule!r}")
-    layout = layout_of_supports(cable, supports)
-    planner = FlightPlanner(layout, world, limits or FlightLimits())
+    request = FlightRequest(name, chosen_by, world, limits or FlightLimits(), schedule)
+    planner = FlightPlanner(layout_of_supports(cable, supports), world, request.limits)
     motion = planner.with_routes(shape or SpanShape()).spaced_out().motion(schedule)
-    return with_supports(motion, name, cable, supports, chosen_by)
+    return with_supports(motion, cable, supports, request)

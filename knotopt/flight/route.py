@@ -254,5 +254,4 @@ def _smoothed(points: FloatArray, firm: FloatArray) -> FloatArray:
     )
     stiffness = (SMOOTHING / SAMPLE) ** 6
     system = (diags_array(firm) @ eye_array(count) + stiffness * (rows.T @ rows)).tocsc()
-    smooth: FloatArray = spsolve(system, firm[:, None] * points)
-    return smooth
+    return np.asarray(spsolve(system, firm[:, None] * points))

@@ -51,15 +51,7 @@ def plan_set(chosen: SupportSet, request: FlightRequest) -> FlightPlan:
     ------
     As `plan_flight`.
     """
-    return plan_flight(
-        request.name,
-        chosen.cable,
-        chosen.supports,
-        request.chosen_by,
-        request.world,
-        request.limits,
-        request.schedule,
-    )
+    return plan_flight(cable=chosen.cable, supports=chosen.supports, **vars(request))
 
 
 def rehearse_first(

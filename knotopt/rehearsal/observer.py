@@ -92,15 +92,13 @@ class Observer:
         return self._in_plan(self.simulation.cable[self.simulation.held[span - 1] :])
 
     def _in_plan(self, points: FloatArray) -> FloatArray:
-        flat: FloatArray = points[:, :2] / self.planner.world.step
-        return flat
+        return np.asarray(points[:, :2] / self.planner.world.step)
 
     def _in_grid(self, span: int) -> FloatArray:
         """Span `span` (from 0), heights above the robots'."""
         simulation, world = self.simulation, self.planner.world
         points = simulation.cable[simulation.held[span] : simulation.held[span + 1] + 1]
-        heights_above: FloatArray = (points - [0, 0, world.altitude]) / world.step
-        return heights_above
+        return np.asarray((points - [0, 0, world.altitude]) / world.step)
 
 
 def _by_older(route: SpanRoute) -> dict[int, list[tuple[float, float | None]]]:

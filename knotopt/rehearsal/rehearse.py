@@ -79,8 +79,7 @@ class _Task:
         self, what: str, motion: MotionPlan, planner: FlightPlanner, lengths: FloatArray | None
     ) -> _Candidate:
         """Fly a motion on the planner's routes, undisturbed and, if that ties, disturbed."""
-        name, chosen_by = self.request.name, self.request.chosen_by
-        plan = with_supports(motion, name, self.cable, self.supports, chosen_by)
+        plan = with_supports(motion, self.cable, self.supports, self.request)
         flight = fly_trial(plan, simulator=self.simulator)
         robust, disturbed = 0, ""
         if flight.is_tied:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -30,8 +30,7 @@ NOISE_TIME = 0.5  # in which position errors change [s]
 GUST_TIME = 1.0  # in which the wind changes [s]
 
 
-@dataclass(frozen=True, eq=False)
-class Frame:
+class Frame(NamedTuple):
     """One sample of a record: time and clock [s], and the centreline, shape (M, 3) [m]."""
 
     time: float
@@ -124,8 +123,7 @@ class MujocoSimulation:
     @property
     def cable(self) -> FloatArray:
         """The centreline now, from p_1 to p_2N, shape (M, 3) [m]."""
-        cable: FloatArray = self._built.origin + self._data.qpos.reshape(-1, 3)
-        return cable
+        return np.asarray(self._built.origin + self._data.qpos.reshape(-1, 3))
 
     @property
     def held(self) -> IntArray:
@@ -135,8 +133,7 @@ class MujocoSimulation:
     @property
     def robots(self) -> FloatArray:
         """Positions of the robots now, shape (R, 3) [m]."""
-        robots: FloatArray = self.cable[self.held]
-        return robots
+        return np.asarray(self.cable[self.held])
 
     @property
     def time(self) -> float:
@@ -219,10 +216,11 @@ class MujocoSimulation:
 
     def record(self) -> FlightRecord:
         """What happened since the start."""
+        times, clock, cable = map(np.array, zip(*self._now.frames, strict=True))
         return FlightRecord(
-            np.array([frame.time for frame in self._now.frames]),
-            np.array([frame.clock for frame in self._now.frames]),
-            np.array([frame.cable for frame in self._now.frames]),
+            times,
+            clock,
+            cable,
             self.held,
             self._now.finished,
             self._now.smallest_distance,

@@ -61,7 +61,8 @@ def rehearsed() -> tuple[FlightPlan, tuple[str, ...], bool]:
 
 def lcf_plan(motion: MotionPlan) -> FlightPlan:
     chosen = choose_supports(shipped_knots()["3_1"].diagram, "lcf")
-    return with_supports(motion, "3_1", chosen.cable, chosen.supports, "lcf")
+    request = FlightRequest("3_1", "lcf")
+    return with_supports(motion, chosen.cable, chosen.supports, request)
 
 
 def test_a_rehearsed_plan_ties_the_trefoil() -> None:
