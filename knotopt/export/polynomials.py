@@ -119,8 +119,3 @@ class Trajectory:
     part: int
     start: float
     polynomials: Polynomials
-
-    @property
-    def end(self) -> float:
-        """Time of the plan at its end [s]."""
-        return self.start + self.polynomials.duration

@@ -115,7 +115,8 @@ def recheck(plan: FlightPlan, trajectories: Sequence[Trajectory]) -> FitReport:
     separation = _nearest(plan, position, times)
     cable = _largest(np.linalg.norm(np.diff(position, axis=1), axis=2) / plan.lengths, times)
     cable = replace(cable, robots=(cable.robots[0], cable.robots[0] + 1))
-    lowest = _least(position[:, :, 2], times)
+    lowest = _largest(-position[:, :, 2], times)
+    lowest = replace(lowest, value=-lowest.value)
     highest = _largest(position[:, :, 2], times)
     jumps = tuple(_jump(trajectories, k) for k in range(4))
     fitted = [_crossing(each, times, position[:, -1]) for each in plan.crossings]
@@ -207,11 +208,6 @@ def _planned(plan: FlightPlan, times: FloatArray) -> FloatArray:
 def _largest(values: FloatArray, times: FloatArray) -> Extreme:
     sample, robot = np.unravel_index(values.argmax(), values.shape)
     return Extreme(float(values[sample, robot]), (int(robot) + 1,), float(times[sample]))
-
-
-def _least(values: FloatArray, times: FloatArray) -> Extreme:
-    extreme = _largest(-values, times)
-    return Extreme(-extreme.value, extreme.robots, extreme.time)
 
 
 def _nearest(plan: FlightPlan, position: FloatArray, times: FloatArray) -> Extreme:

@@ -104,7 +104,7 @@ class Formation:
     @cached_property
     def _fine(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Coordinates, points and arc lengths of the route at small steps."""
-        end = self.route.length * self.world.step
+        end = float(self.route.along[-1]) * self.world.step
         along = np.linspace(0, end, int(np.ceil(end / FINE)) + 1)
         points = self._curve(along)
         return along, points, length_along(points)

@@ -89,15 +89,9 @@ def possible_gates(
         a, b = (np.array(line.interpolate(end).coords[0]) for end in ends)
         ahead = (b - a) / np.hypot(*(b - a))
         heading = letter.sense * np.array([-ahead[1], ahead[0]])
-        place = np.array(line.interpolate(along).coords[0])
+        place = line.interpolate(along).coords[0]
         for share in SHORTER:
-            gate = Gate(
-                letter,
-                (place[0], place[1]),
-                (heading[0], heading[1]),
-                share * run,
-                float(along),
-            )
+            gate = Gate(letter, place, (heading[0], heading[1]), share * run, along)
             if _is_free(gate, obstacles):
                 found.append(gate)
                 break

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,11 +36,6 @@ class Obstacles:
     posts: FloatArray
     clear: float
 
-    @property
-    def has_cable(self) -> bool:
-        """Whether there is any cable."""
-        return not self.cable.is_empty
-
     def blocks(self, sight: shapely.LineString, end: FloatArray) -> bool:
         """Whether cable crosses a line, other than where the line starts at its robot."""
         if not sight.intersects(self.cable):
@@ -55,7 +49,7 @@ class Obstacles:
         apart = shapely.distance(line, shapely.points(self.robots))
         if apart.min(initial=np.inf) < self.clear:
             return False
-        if not self.has_cable:
+        if self.cable.is_empty:
             return True
         ends = [shapely.distance(shapely.Point(end), self.cable) for end in (piece[0], piece[-1])]
         inner = shapely.distance(shapely.points(piece[1:-1]), self.cable).min()
@@ -78,35 +72,6 @@ class Obstacles:
                     best = j
             corners.append(best)
         return points[corners]
-
-
-def obstacles_between(
-    start: FloatArray,
-    goal: FloatArray,
-    laid: Sequence[FloatArray],
-    robots: FloatArray,
-    clear: float,
-    barriers: Sequence[FloatArray] = (),
-) -> Obstacles:
-    """The obstacles of a way from one robot's place to another's.
-
-    Parameters
-    ----------
-    start, goal : float arrays, shape (2,)
-    laid : sequence of float arrays, shape (m, 2)
-        Spans 1, 2, ... in plan, as they lie.
-    robots : float array, shape (k, 2)
-        Hovering robots.
-    clear : float
-        Distance to keep from them.
-    barriers : sequence of float arrays, shape (m, 2)
-        Other cable that is not to be crossed, such as the leader's own.
-    """
-    lines = tuple(shapely.LineString(points) for points in laid)
-    cable = shapely.union_all([*lines, *(shapely.LineString(points) for points in barriers)])
-    others = robots[nearest(robots, np.stack((start, goal))) > 1e-6]
-    posts = np.concatenate((robots, goal[None]))
-    return Obstacles(lines, cable, others, posts, clear)
 
 
 def nearest(points: FloatArray, robots: FloatArray) -> FloatArray:

@@ -160,11 +160,6 @@ class Route:
     stops: FloatArray
     passed: tuple[float, ...]
 
-    @property
-    def length(self) -> float:
-        """The coordinate at the end [grid steps]."""
-        return float(self.along[-1])
-
 
 def build_route(
     approach: FloatArray, spans: Sequence[SpanRoute], frozen: FloatArray | None = None

@@ -123,9 +123,9 @@ def first_good(
             found.append((chosen, attempt(chosen)))
         except RequirementError as error:
             failed.append((chosen, error))
-            continue
-        if not against(found[-1][1]):
-            break
+        else:
+            if not against(found[-1][1]):
+                break
     if not found:
         raise failed[0][1]
     best = found[-1][1]

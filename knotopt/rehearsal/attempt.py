@@ -6,6 +6,7 @@ import logging
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import accumulate
+from operator import attrgetter
 
 import numpy as np
 
@@ -166,17 +167,13 @@ class RehearsedFlight:
     def _next_crossing(self, span: int, word: Word, done: int) -> None:
         """Fly through gate `done` (from 0) of a span, or from the last one to the next robot."""
         start = self.simulation.checkpoint()
-        best: _Leg | None = None
+        legs = []
         for route in self._ways_on(span, word, done):
             self.simulation.restore(start)
-            trial = self._fly(span, route, done + 1)
-            if best is None or trial.rank < best.rank:
-                best = trial
-            if trial.rank == (0, 0):
+            legs.append(self._fly(span, route, done + 1))
+            if legs[-1].rank == (0, 0):
                 break
-        if best is None:  # no way on was found: what was planned before is flown
-            self.simulation.restore(start)
-            best = self._fly(span, self.planner.spans[span - 1], done + 1)
+        best = min(legs, key=attrgetter("rank"))
         self.simulation.restore(best.checkpoint)
         self._take(best)
         name = f"span {span} {word[done]}" if done < len(word) else f"the end of span {span}"
@@ -192,7 +189,10 @@ class RehearsedFlight:
         self.planner = leg.planner.with_flown(self.along)
 
     def _ways_on(self, span: int, word: Word, done: int) -> Iterator[SpanRoute]:
-        """Routes over a span that go on from here, past the cable as it lies."""
+        """Routes over a span that go on from here, past the cable as it lies.
+
+        If there is none, the one that was planned before.
+        """
         planner = self.planner
         observer = Observer(planner, self.simulation)
         laid = observer.laid(span - 1)
@@ -220,7 +220,8 @@ class RehearsedFlight:
                     seen.add(key)
                     yield route
             if seen:
-                break
+                return
+        yield planner.spans[span - 1]
 
     def _fly(self, span: int, route: SpanRoute, gates: int) -> _Leg:
         """Fly through that many gates of a route, or to its end."""
