@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 
 import numpy as np
 import shapely
 
 from knotopt.arrays import FloatArray
+from knotopt.flight.gates import Gate
 from knotopt.flight.laid_cable import LaidCable
-from knotopt.flight.layout import Letter
 from knotopt.flight.planner import FlightPlanner
 from knotopt.flight.route import SpanRoute
 from knotopt.sim.simulation import Simulation
@@ -73,8 +74,8 @@ class Observer:
             for older, gates in _by_older(route).items():
                 places = _places(lines[older - 1], lines[later - 1])
                 if len(places) != len(gates):
-                    places = [along for along, _ in gates]
-                ranks = (rank for _, rank in gates)
+                    places = [gate.along for gate in gates]
+                ranks = (gate.letter.rank for gate in gates)
                 found.setdefault(older, []).extend(zip(ranks, places, strict=True))
         word = planner.layout.words[span - 1]
         if 0 < done < len(word) and word[done - 1].older == word[done].older:
@@ -101,12 +102,11 @@ class Observer:
         return np.asarray((points - [0, 0, world.altitude]) / world.step)
 
 
-def _by_older(route: SpanRoute) -> dict[int, list[tuple[float, float | None]]]:
-    """Arc length and rank of a route's gates, in order, for each span crossed."""
-    found: dict[int, list[tuple[float, float | None]]] = {}
-    for passage in sorted(route.passages, key=lambda each: each.gate.along):
-        letter: Letter = passage.gate.letter
-        found.setdefault(letter.older, []).append((passage.gate.along, letter.rank))
+def _by_older(route: SpanRoute) -> dict[int, list[Gate]]:
+    """A route's gates for each span crossed, in order along it."""
+    found: dict[int, list[Gate]] = {}
+    for gate in sorted((passage.gate for passage in route.passages), key=attrgetter("along")):
+        found.setdefault(gate.letter.older, []).append(gate)
     return found
 
 
