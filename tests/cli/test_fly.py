@@ -68,8 +68,8 @@ def test_the_summary_alone(cli: Cli, tmp_path: Path) -> None:
 
 
 def test_a_broken_limit_is_said_and_everything_written(cli: Cli, tmp_path: Path) -> None:
-    def too_high(*arguments: Any) -> FlightPlan:
-        plan = plan_flight(*arguments)
+    def too_high(**asked: Any) -> FlightPlan:
+        plan = plan_flight(**asked)
         return replace(plan, world=replace(plan.world, ceiling=2.21))
 
     cli.monkeypatch.setattr(alternatives, "plan_flight", too_high)
