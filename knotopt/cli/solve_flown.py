@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import importlib.metadata
 import json
+import logging
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from knotopt.cli.logs import telling
+from knotopt.cli.logs import LOGGER, telling
 from knotopt.cli.options import refuse, run_header, unless_given
 from knotopt.cli.solve_flown_printing import flown_json
 from knotopt.rehearsal.flight_tests import FlightTests
@@ -167,22 +168,27 @@ def _search_into(
 
 @contextmanager
 def _telling() -> Iterator[None]:
-    """Sets go to the error stream line by line; what happens within one to its last line."""
+    """Sets go to the error stream line by line; what happens within one to its last line.
+
+    With `--verbose` the sets stand there already, with all else that is logged.
+    """
     from rich.console import Console
     from rich.markup import escape
 
     console = Console(stderr=True)
+    verbose = any(not isinstance(each, logging.FileHandler) for each in LOGGER.handlers)
     if not console.is_terminal:
-        with telling(lambda text: _note(text) if text.startswith("set ") else None):
+        sets = telling(lambda text: _note(text) if text.startswith("set ") else None)
+        with nullcontext() if verbose else sets:
             yield
         return
     with console.status("solving") as status:
 
         def tell(text: str) -> None:
-            if text.startswith("set "):
-                console.print(text, markup=False, highlight=False)
-            else:
+            if not text.startswith("set "):
                 status.update(escape(text))
+            elif not verbose:
+                console.print(text, markup=False, highlight=False)
 
         with telling(tell):
             yield

@@ -57,15 +57,13 @@ def export_files(plan: FlightPlan) -> tuple[dict[str, str], FitReport]:
     _check_columns(plan)
     trajectories = fit_trajectories(plan)
     report = recheck(plan, trajectories)
-    names = _file_names(trajectories)
     files = {
         "waypoints.csv": waypoints_csv(plan),
         "crazyflies.yaml": crazyflies_yaml(plan),
         "fly.py": flight_script(plan, trajectories, report.broken),
     }
-    for name, trajectory in zip(names, trajectories, strict=True):
-        files[name] = trajectory.polynomials.csv()
-    return files, report
+    polynomials = (each.polynomials.csv() for each in trajectories)
+    return files | dict(zip(_file_names(trajectories), polynomials, strict=True)), report
 
 
 def crazyflies_yaml(plan: FlightPlan) -> str:

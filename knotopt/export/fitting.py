@@ -49,10 +49,10 @@ def fit_trajectories(plan: FlightPlan) -> tuple[Trajectory, ...]:
     start = 0
     while start < len(cuts) - 1:
         for end in range(len(cuts) - 1, start, -1):
-            fits, deviation = _fit_all(plan, cuts[start], cuts[end])
-            if end == start + 1 or deviation <= TOLERANCE:
+            fits = _fit_all(plan, cuts[start], cuts[end])
+            if end == start + 1 or max(deviation for _, deviation in fits) <= TOLERANCE:
                 break
-        parts.append((cuts[start], fits))
+        parts.append((cuts[start], [polynomials for polynomials, _ in fits]))
         start = end
     return tuple(
         Trajectory(robot, part, float(plan.times[first]), fit)
@@ -83,14 +83,11 @@ def _still(times: FloatArray, track: FloatArray) -> list[tuple[int, int]]:
     ]
 
 
-def _fit_all(plan: FlightPlan, first: int, last: int) -> tuple[list[Polynomials], float]:
-    """The polynomials of all robots between two samples, and the largest deviation."""
+def _fit_all(plan: FlightPlan, first: int, last: int) -> list[tuple[Polynomials, float]]:
+    """The polynomials of every robot between two samples, and its deviation."""
     times = plan.times[first : last + 1] - plan.times[first]
-    fits = [
-        _fit_robot(times, plan.positions[first : last + 1, robot], plan.limits)
-        for robot in range(plan.robots)
-    ]
-    return [polynomials for polynomials, _ in fits], max(deviation for _, deviation in fits)
+    tracks = plan.positions[first : last + 1].swapaxes(0, 1)
+    return [_fit_robot(times, track, plan.limits) for track in tracks]
 
 
 def _fit_robot(
@@ -193,8 +190,7 @@ def _error(track: FloatArray) -> float:
 def _basis(count: int) -> FloatArray:
     """Orthonormal polynomials at evenly spaced places, shape (count, 8)."""
     places = np.linspace(-1, 1, count)
-    basis: FloatArray = np.linalg.qr(np.polynomial.legendre.legvander(places, DEGREE))[0]
-    return basis
+    return np.asarray(np.linalg.qr(np.polynomial.legendre.legvander(places, DEGREE))[0])
 
 
 def _finely(times: FloatArray, track: FloatArray) -> tuple[FloatArray, FloatArray]:

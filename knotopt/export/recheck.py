@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
+from operator import attrgetter
 
 import numpy as np
 
@@ -113,7 +115,8 @@ def recheck(plan: FlightPlan, trajectories: Sequence[Trajectory]) -> FitReport:
     separation = _nearest(plan, position, times)
     cable = _largest(np.linalg.norm(np.diff(position, axis=1), axis=2) / plan.lengths, times)
     cable = replace(cable, robots=(cable.robots[0], cable.robots[0] + 1))
-    lowest = _least(position[:, :, 2], times)
+    lowest = _largest(-position[:, :, 2], times)
+    lowest = replace(lowest, value=-lowest.value)
     highest = _largest(position[:, :, 2], times)
     jumps = tuple(_jump(trajectories, k) for k in range(4))
     fitted = [_crossing(each, times, position[:, -1]) for each in plan.crossings]
@@ -191,9 +194,8 @@ def _flown(
     flown = np.zeros((len(times), plan.robots, 3))
     for each in sorted(trajectories, key=lambda each: each.start):
         here = times >= each.start
-        flown[here, each.robot - 1] = each.polynomials.at(times[here] - each.start, derivative)[
-            :, :3
-        ]
+        values = each.polynomials.at(times[here] - each.start, derivative)
+        flown[here, each.robot - 1] = values[:, :3]
     return flown
 
 
@@ -208,36 +210,27 @@ def _largest(values: FloatArray, times: FloatArray) -> Extreme:
     return Extreme(float(values[sample, robot]), (int(robot) + 1,), float(times[sample]))
 
 
-def _least(values: FloatArray, times: FloatArray) -> Extreme:
-    extreme = _largest(-values, times)
-    return Extreme(-extreme.value, extreme.robots, extreme.time)
-
-
 def _nearest(plan: FlightPlan, position: FloatArray, times: FloatArray) -> Extreme:
     """Least distance of two robots in the metric of the ellipsoid."""
     limits = plan.limits
     scaled = position / [limits.separation, limits.separation, limits.downwash]
-
-    def pairs() -> Iterator[Extreme]:
-        for i, j in zip(*np.triu_indices(plan.robots, 1), strict=True):
-            apart = np.linalg.norm(scaled[:, j] - scaled[:, i], axis=1)
-            sample = int(apart.argmin())
-            yield Extreme(float(apart[sample]), (int(i) + 1, int(j) + 1), float(times[sample]))
-
-    return min(pairs(), key=lambda extreme: extreme.value)
+    found = []
+    for i, j in combinations(range(plan.robots), 2):
+        apart = np.linalg.norm(scaled[:, j] - scaled[:, i], axis=1)
+        sample = int(apart.argmin())
+        found.append(Extreme(float(apart[sample]), (i + 1, j + 1), float(times[sample])))
+    return min(found, key=attrgetter("value"))
 
 
 def _jump(trajectories: Sequence[Trajectory], derivative: int) -> Extreme:
     """The largest jump of a derivative."""
-
-    def jumps() -> Iterator[Extreme]:
-        for each in trajectories:
-            found = each.polynomials.jumps(derivative)
-            place = int(found.argmax())
-            time = each.start + float(each.polynomials.breaks[place])
-            yield Extreme(float(found[place]), (each.robot,), time)
-
-    return max(jumps(), key=lambda extreme: extreme.value)
+    found = []
+    for each in trajectories:
+        jumps = each.polynomials.jumps(derivative)
+        place = int(jumps.argmax())
+        time = each.start + float(each.polynomials.breaks[place])
+        found.append(Extreme(float(jumps[place]), (each.robot,), time))
+    return max(found, key=attrgetter("value"))
 
 
 def _crossing(

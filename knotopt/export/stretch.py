@@ -152,8 +152,7 @@ class Stretch:
         return least, place
 
     def _off(self, spline: BSpline) -> FloatArray:
-        off: FloatArray = np.linalg.norm(spline(self._times) - self._track, axis=1)
-        return off
+        return np.asarray(np.linalg.norm(spline(self._times) - self._track, axis=1))
 
     def _spline(
         self, breaks: FloatArray, weights: FloatArray, pulls: Sequence[_Pull] = ()

@@ -16,6 +16,7 @@ import numpy as np
 from knotopt.arrays import FloatArray
 from knotopt.flight.plan import FlightPlan, MotionPlan, PlannedCrossing
 from knotopt.flight.record import FlightRecord
+from knotopt.path.curve import length_along
 from knotopt.verify.flight import leader_events, nearest_approaches
 from knotopt.verify.flight_limits import LimitsReport, check_limits
 from knotopt.verify.flight_places import TOLERANCE, executed_states, planned_states
@@ -24,6 +25,8 @@ from knotopt.verify.flight_word import WordRow, compare_words, plan_word
 from knotopt.verify.span import check_span
 
 AS_PLANNED = "as planned"
+LIMITS = ("speed", "acceleration", "separation", "downwash")  # of plans and flights alike
+HOVERS = ("hover_before", "hover_after")  # of plans alone
 LEAST_OPEN = Fraction(1, 1000)  # openness of regions that are there at all [grid steps]
 
 
@@ -77,11 +80,6 @@ class Examination:
         """The crossings that are not as planned."""
         return tuple(row for row in self.crossings if row.result != AS_PLANNED)
 
-    @property
-    def kept(self) -> int:
-        """How many crossings are as planned."""
-        return len(self.crossings) - len(self.amiss)
-
 
 def examine_plan(plan: FlightPlan) -> Examination:
     """A plan's limits, and what the leader's track crosses if cable lies as the model has it.
@@ -92,9 +90,8 @@ def examine_plan(plan: FlightPlan) -> Examination:
     """
     report = _limits(plan, plan.times, plan.positions, hover=True)
     track = plan.positions[: plan.laying, -1]
-    moved = np.linalg.norm(np.diff(track, axis=0), axis=1)
-    along = np.concatenate(([0.0], np.cumsum(moved)))
-    moving = np.concatenate(([True], moved > 0))
+    along = length_along(track)
+    moving = np.concatenate(([True], np.diff(track, axis=0).any(axis=1)))
     passes = np.interp(plan.passes, plan.times[: plan.laying], along)
     found = plan_word(track[moving], passes, plan.anchors, plan.lengths)
     cable = plan.cable
@@ -133,20 +130,9 @@ def examine_flight(plan: MotionPlan, record: FlightRecord) -> Examination:
 def _limits(
     plan: MotionPlan, times: FloatArray, robots: FloatArray, *, hover: bool
 ) -> LimitsReport:
-    limits, world = plan.limits, plan.world
-    return check_limits(
-        times,
-        robots,
-        plan.lengths,
-        speed=limits.speed,
-        acceleration=limits.acceleration,
-        separation=limits.separation,
-        downwash=limits.downwash,
-        floor=world.floor,
-        ceiling=world.ceiling,
-        hover_before=limits.hover_before if hover else 0.0,
-        hover_after=limits.hover_after if hover else 0.0,
-    )
+    kept = {name: getattr(plan.limits, name) for name in (*LIMITS, *(HOVERS if hover else ()))}
+    floor, ceiling = plan.world.floor, plan.world.ceiling
+    return check_limits(times, robots, plan.lengths, floor=floor, ceiling=ceiling, **kept)
 
 
 def _rows(rows: Sequence[WordRow]) -> tuple[CrossingRow, ...]:

@@ -15,6 +15,7 @@ from scipy.interpolate import CubicSpline
 from knotopt.arrays import FloatArray
 from knotopt.flight.limits import FlightLimits
 from knotopt.flight.route import Route
+from knotopt.path.curve import length_along
 from knotopt.path.world import World
 
 NODES = 0.03  # between nodes of the path coordinate [m]
@@ -86,14 +87,12 @@ class Formation:
 
     def point(self, along: float) -> FloatArray:
         """The route at a coordinate, shape (3,) [m]."""
-        point: FloatArray = self._curve(along)
-        return point
+        return np.asarray(self._curve(along))
 
     def positions(self, s: FloatArray) -> FloatArray:
         """Positions of the robots at path coordinates, shape (K, R, 3) [m]."""
         along, _, _ = self._along(s)
-        found: FloatArray = self._curve(along)
-        return found
+        return np.asarray(self._curve(along))
 
     def derivatives(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
         """First and second derivative of the positions by the path coordinate, (K, R, 3)."""
@@ -105,11 +104,10 @@ class Formation:
     @cached_property
     def _fine(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Coordinates, points and arc lengths of the route at small steps."""
-        end = self.route.length * self.world.step
+        end = float(self.route.along[-1]) * self.world.step
         along = np.linspace(0, end, int(np.ceil(end / FINE)) + 1)
         points = self._curve(along)
-        chords = np.linalg.norm(np.diff(points, axis=0), axis=1)
-        return along, points, np.concatenate(([0.0], np.cumsum(chords)))
+        return along, points, length_along(points)
 
     def arc_length(self, along: float) -> float:
         """Arc length of the route up to a coordinate [m]."""
@@ -137,5 +135,4 @@ class Formation:
     def farthest(self) -> FloatArray:
         """The farthest that consecutive robots get apart, shape (R - 1,) [m]."""
         positions = self.positions(self.nodes)
-        apart: FloatArray = np.linalg.norm(np.diff(positions, axis=1), axis=2).max(axis=0)
-        return apart
+        return np.asarray(np.linalg.norm(np.diff(positions, axis=1), axis=2).max(axis=0))

@@ -89,15 +89,9 @@ def possible_gates(
         a, b = (np.array(line.interpolate(end).coords[0]) for end in ends)
         ahead = (b - a) / np.hypot(*(b - a))
         heading = letter.sense * np.array([-ahead[1], ahead[0]])
-        place = np.array(line.interpolate(along).coords[0])
+        place = line.interpolate(along).coords[0]
         for share in SHORTER:
-            gate = Gate(
-                letter,
-                (place[0], place[1]),
-                (heading[0], heading[1]),
-                share * run,
-                float(along),
-            )
+            gate = Gate(letter, place, (heading[0], heading[1]), share * run, along)
             if _is_free(gate, obstacles):
                 found.append(gate)
                 break
@@ -120,8 +114,7 @@ def are_in_order(before: Sequence[Gate], after: Sequence[Gate], apart: float) ->
         ahead *= np.sign(second.rank - first.rank)
     else:
         ahead = np.abs(ahead)
-    far_enough: BoolArray = ahead >= apart - 1e-9
-    return far_enough
+    return np.asarray(ahead >= apart - 1e-9)
 
 
 def all_in_order(gates: Sequence[Gate], apart: float) -> bool:

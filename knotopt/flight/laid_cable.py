@@ -15,6 +15,7 @@ from scipy.optimize import brentq
 
 from knotopt.arrays import FloatArray
 from knotopt.flight.gates import Gate
+from knotopt.path.curve import length_along
 
 THIN = 0.02  # detail of laid cable that is left out in plan [grid steps]
 
@@ -40,9 +41,7 @@ class LaidCable:
     def height(self, gate: Gate) -> float:
         """Height of the older cable in a gate."""
         span = self.spans[gate.letter.older - 1]
-        chords = np.linalg.norm(np.diff(span[:, :2], axis=0), axis=1)
-        along = np.concatenate(([0.0], np.cumsum(chords)))
-        return float(np.interp(gate.along, along, span[:, 2]))
+        return float(np.interp(gate.along, length_along(span[:, :2]), span[:, 2]))
 
 
 def hanging_cable(start: FloatArray, end: FloatArray, length: float, count: int) -> FloatArray:

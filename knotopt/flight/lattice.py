@@ -95,7 +95,7 @@ def build_lattice(obstacles: Obstacles, start: FloatArray, goal: FloatArray) -> 
     grid = np.stack(np.meshgrid(*map(np.arange, counts), indexing="ij"), axis=-1)
     nodes = low + SPACING * grid.reshape(-1, 2)
     from_cable = np.full(len(nodes), NEAR)
-    if obstacles.has_cable:
+    if not obstacles.cable.is_empty:
         from_cable = shapely.distance(shapely.points(nodes), obstacles.cable)
     from_robots = nearest(nodes, obstacles.robots)
     weight = 1 + 3 * np.clip(1 - from_cable / NEAR, 0, 1)
@@ -135,11 +135,9 @@ def _shut(
 ) -> BoolArray:
     """Which edges cable crosses or a robot is too near to; distances are those of their starts."""
     shut = np.zeros(len(ends), dtype=bool)
-    if obstacles.has_cable:
-        close = from_cable < 2 * length
-        shut[close] = shapely.intersects(shapely.linestrings(ends[close]), obstacles.cable)
-    if len(obstacles.robots):
-        close = from_robots < obstacles.clear + length
-        robots = shapely.multipoints(obstacles.robots)
-        shut[close] |= shapely.distance(shapely.linestrings(ends[close]), robots) < obstacles.clear
+    close = from_cable < 2 * length
+    shut[close] = shapely.intersects(shapely.linestrings(ends[close]), obstacles.cable)
+    close = from_robots < obstacles.clear + length
+    robots = shapely.multipoints(obstacles.robots)
+    shut[close] |= shapely.distance(shapely.linestrings(ends[close]), robots) < obstacles.clear
     return shut

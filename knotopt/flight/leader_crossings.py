@@ -120,13 +120,11 @@ def _pierced(cable: FloatArray) -> list[tuple[int, int, int, float, float, float
 
 def _is_left(start: FloatArray, end: FloatArray) -> BoolArray:
     """Whether the leader, in the origin, is on the left of lines, or on them."""
-    left: BoolArray = _area(start, end) >= 0
-    return left
+    return np.asarray(_area(start, end) >= 0)
 
 
 def _area(p: FloatArray, q: FloatArray) -> FloatArray:
-    area: FloatArray = p[..., 0] * q[..., 1] - p[..., 1] * q[..., 0]
-    return area
+    return np.asarray(p[..., 0] * q[..., 1] - p[..., 1] * q[..., 0])
 
 
 def _lies_on_one_side(cable: FloatArray, loop: float, *, over: bool) -> bool:

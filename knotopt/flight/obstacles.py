@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,11 +36,6 @@ class Obstacles:
     posts: FloatArray
     clear: float
 
-    @property
-    def has_cable(self) -> bool:
-        """Whether there is any cable."""
-        return not self.cable.is_empty
-
     def blocks(self, sight: shapely.LineString, end: FloatArray) -> bool:
         """Whether cable crosses a line, other than where the line starts at its robot."""
         if not sight.intersects(self.cable):
@@ -52,11 +46,10 @@ class Obstacles:
     def allows_short_cut(self, piece: FloatArray) -> bool:
         """Whether a piece of a way may be replaced by the straight line between its ends."""
         line = shapely.LineString(piece[[0, -1]])
-        if len(self.robots):
-            robots = shapely.points(self.robots)
-            if shapely.distance(line, robots).min() < self.clear:
-                return False
-        if not self.has_cable:
+        apart = shapely.distance(line, shapely.points(self.robots))
+        if apart.min(initial=np.inf) < self.clear:
+            return False
+        if self.cable.is_empty:
             return True
         ends = [shapely.distance(shapely.Point(end), self.cable) for end in (piece[0], piece[-1])]
         inner = shapely.distance(shapely.points(piece[1:-1]), self.cable).min()
@@ -81,39 +74,7 @@ class Obstacles:
         return points[corners]
 
 
-def obstacles_between(
-    start: FloatArray,
-    goal: FloatArray,
-    laid: Sequence[FloatArray],
-    robots: FloatArray,
-    clear: float,
-    barriers: Sequence[FloatArray] = (),
-) -> Obstacles:
-    """The obstacles of a way from one robot's place to another's.
-
-    Parameters
-    ----------
-    start, goal : float arrays, shape (2,)
-    laid : sequence of float arrays, shape (m, 2)
-        Spans 1, 2, ... in plan, as they lie.
-    robots : float array, shape (k, 2)
-        Hovering robots.
-    clear : float
-        Distance to keep from them.
-    barriers : sequence of float arrays, shape (m, 2)
-        Other cable that is not to be crossed, such as the leader's own.
-    """
-    lines = tuple(shapely.LineString(points) for points in laid)
-    cable = shapely.union_all([*lines, *(shapely.LineString(points) for points in barriers)])
-    ends = np.stack((start, goal))
-    others = robots[[bool(np.hypot(*(ends - robot).T).min() > 1e-6) for robot in robots]]
-    posts = np.concatenate((robots, goal[None]))
-    return Obstacles(lines, cable, others.reshape(-1, 2), posts, clear)
-
-
 def nearest(points: FloatArray, robots: FloatArray) -> FloatArray:
-    """Distance of each point from the nearest robot."""
-    if not len(robots):
-        return np.full(len(points), np.inf)
-    apart: FloatArray = np.linalg.norm(points[:, None] - robots[None], axis=2).min(axis=1)
-    return apart
+    """Distance of each point from the nearest robot, infinite if there is none."""
+    apart = np.linalg.norm(points[:, None] - robots[None], axis=2)
+    return np.asarray(apart.min(axis=1, initial=np.inf))

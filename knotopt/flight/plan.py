@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from typing import Self
 
 import numpy as np
@@ -11,6 +11,7 @@ from scipy.spatial.distance import pdist
 from knotopt.arrays import FloatArray
 from knotopt.cable.cable import Cable
 from knotopt.flight.limits import FlightLimits
+from knotopt.flight.request import FlightRequest
 from knotopt.path.world import World
 
 
@@ -119,8 +120,7 @@ class MotionPlan:
     @property
     def anchors(self) -> FloatArray:
         """Where the robots hover when the knot is laid, shape (R, 3) [m]."""
-        anchors: FloatArray = self.positions[self.laying - 1]
-        return anchors
+        return np.asarray(self.positions[self.laying - 1])
 
     @property
     def ends_apart(self) -> tuple[float, float]:
@@ -171,10 +171,13 @@ class FlightPlan(MotionPlan):
 
 
 def with_supports(
-    motion: MotionPlan, name: str, cable: Cable, supports: tuple[int, ...], chosen_by: str
+    motion: MotionPlan, cable: Cable, supports: tuple[int, ...], request: FlightRequest
 ) -> FlightPlan:
-    """A motion as the flight plan of a knot, with the attributes of `FlightPlan`."""
-    motion_values = {each.name: getattr(motion, each.name) for each in fields(MotionPlan)}
+    """A motion as the flight plan of a knot that was asked for."""
     return FlightPlan(
-        **motion_values, name=name, cable=cable, supports=supports, chosen_by=chosen_by
+        **vars(motion),
+        name=request.name,
+        cable=cable,
+        supports=supports,
+        chosen_by=request.chosen_by,
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterable
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any, TypeVar
@@ -194,10 +195,14 @@ def _list(content: dict[str, Any], key: str) -> list[Any]:
 def _numbers(content: dict[str, Any], key: str, kind: type[Numbers]) -> Numbers:
     """A value that consists of named numbers."""
     values: dict[str, Any] = _get(content, key, dict, "an object")
-    for name in {field.name for field in fields(kind)} ^ set(values):
-        problem = "unknown" if name in values else "missing"
-        raise FileFormatError(f'the key "{name}" in "{key}" is {problem}')
+    _check_keys(values, [field.name for field in fields(kind)], f'"{key}"')
     return kind(**values)
+
+
+def _check_keys(values: dict[str, Any], names: Iterable[str], where: str) -> None:
+    for name in set(names) ^ set(values):
+        problem = "unknown" if name in values else "missing"
+        raise FileFormatError(f'the key "{name}" in {where} is {problem}')
 
 
 def _array(content: dict[str, Any], key: str) -> FloatArray:
@@ -231,16 +236,15 @@ def _crossing(entry: Any, number: int) -> PlannedCrossing:
         ("height", "cable_height", "route", "time"), (float, int)
     )
     kinds |= {"span": (int,), "older": (int,), "over": (bool,), "sense": (int,), "place": (list,)}
-    for name in kinds.keys() ^ values.keys():
-        problem = "unknown" if name in values else "missing"
-        raise FileFormatError(f'the key "{name}" in entry {number} of "crossings" is {problem}')
+    where = f'entry {number} of "crossings"'
+    _check_keys(values, kinds, where)
     for name, kind in kinds.items():
         if type(values[name]) not in kind or (float in kind and not math.isfinite(values[name])):
             raise FileFormatError(
-                f'"{name}" in entry {number} of "crossings" is {values[name]!r}, '
+                f'"{name}" in {where} is {values[name]!r}, '
                 f"expected {' or '.join(each.__name__ for each in kind)}"
             )
     place = values.pop("place")
     if len(place) != 2 or not all(type(x) in (int, float) and math.isfinite(x) for x in place):
-        raise FileFormatError(f'"place" in entry {number} of "crossings" is not [x, y]')
+        raise FileFormatError(f'"place" in {where} is not [x, y]')
     return PlannedCrossing(place=(place[0], place[1]), **values)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -12,13 +13,13 @@ from knotopt.arrays import FloatArray
 from knotopt.cable.cable import Cable
 from knotopt.errors import RequirementError
 from knotopt.flight.formation import Formation
-from knotopt.flight.gates import Crossed, RouteShape
+from knotopt.flight.gates import Crossed
 from knotopt.flight.grid_layout import layout_of_supports
 from knotopt.flight.laid_cable import LaidCable, hanging_cable
-from knotopt.flight.layout import Layout, Word
+from knotopt.flight.layout import Layout
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan, MotionPlan, PlannedCrossing, with_supports
-from knotopt.flight.request import SCHEDULES
+from knotopt.flight.request import FlightRequest
 from knotopt.flight.route import SAMPLE, Passage, SpanRoute, SpanShape, build_route
 from knotopt.flight.router import Router, Way
 from knotopt.path.world import World
@@ -64,32 +65,17 @@ class FlightPlanner:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "spacing", max(self.spacing, self.limits.spacing))
-        apart = pdist(self.places) * self.world.step
+        apart = pdist(self.layout.places) * self.world.step
         if apart.min() < self.limits.separation:
-            first, second = np.array(np.triu_indices(self.robots, 1))[:, apart.argmin()]
+            first, second = np.array(np.triu_indices(self.layout.robots, 1))[:, apart.argmin()]
             raise RequirementError(
                 f"robots {first + 1} and {second + 1} hover {apart.min():.2f} m apart, less than "
                 f"the separation of {self.limits.separation:g} m: a larger grid step is needed"
             )
 
-    @property
-    def places(self) -> FloatArray:
-        """Of the robots in plan, shape (R, 2) [grid steps]."""
-        return self.layout.places
-
-    @property
-    def words(self) -> tuple[Word, ...]:
-        """Of the spans."""
-        return self.layout.words
-
-    @property
-    def robots(self) -> int:
-        """Number of robots."""
-        return self.layout.robots
-
     def modelled_cable(self, spans: int) -> LaidCable:
         """The first spans, straight in plan and hanging as catenaries."""
-        ends = np.column_stack((self.places, np.zeros(self.robots)))
+        ends = np.column_stack((self.layout.places, np.zeros(self.layout.robots)))
         return LaidCable(
             [hanging_cable(ends[i], ends[i + 1], self.lengths[i], 40) for i in range(spans)]
         )
@@ -110,26 +96,28 @@ class FlightPlanner:
         RequirementError
             The room is too low for a gate.
         """
-        router = Router(
-            laid.in_plan,
-            self.places[:span],
-            self.places[span - 1],
-            self.places[span],
-            self.cleared(shape.route),
-            [self.layout.tail],
-        )
-        word = self.words[span - 1]
+        start = self.layout.places[span - 1]
+        router = self.router(span, start, laid, shape, [self.layout.tail])
         orders: tuple[Crossed, ...] = (self.crossed(span - 1), {})
         for crossed in orders:
-            way = router.find(word, crossed)
+            way = router.find(self.layout.words[span - 1], crossed)
             if way is not None:
                 return self.with_heights(way, laid, shape)
         return None
 
-    def cleared(self, shape: RouteShape) -> RouteShape:
-        """A shape that keeps from hovering robots what the limits ask for."""
+    def router(
+        self,
+        span: int,
+        start: FloatArray,
+        laid: LaidCable,
+        shape: SpanShape,
+        barriers: Sequence[FloatArray],
+    ) -> Router:
+        """Finds ways from a start to the end of a span, as far from robots as the limits ask."""
+        places = self.layout.places
         needed = CLEAR * self.limits.separation / self.world.step
-        return replace(shape, clear=max(shape.clear, needed))
+        clear = replace(shape.route, clear=max(shape.route.clear, needed))
+        return Router(laid.in_plan, places[:span], start, places[span], clear, barriers)
 
     def with_heights(self, way: Way, laid: LaidCable, shape: SpanShape) -> SpanRoute:
         """A way with a height in every gate.
@@ -174,7 +162,7 @@ class FlightPlanner:
             There is no way, and which span and crossings that is.
         """
         planner = self
-        for span in range(len(self.spans) + 1, self.robots):
+        for span in range(len(self.spans) + 1, self.layout.robots):
             planner = planner.with_next(planner.modelled_route(span, shape))
         return planner
 
@@ -198,7 +186,7 @@ class FlightPlanner:
                 return route
         if too_low is not None:
             raise too_low
-        word = ", ".join(map(str, self.words[span - 1])) or "no crossing"
+        word = ", ".join(map(str, self.layout.words[span - 1])) or "no crossing"
         raise RequirementError(
             f"there is no way for span {span}, from robot {span} to {span + 1}, with "
             f"{word}: the laid cable and the hovering robots leave no room"
@@ -207,13 +195,9 @@ class FlightPlanner:
     def formation(self) -> Formation:
         """The robots in file on the route over all spans."""
         spacing = self.spacing / self.world.step
-        approach = self.places[0] + self.layout.outwards * (self.robots - 1) * spacing
+        approach = self.layout.places[0] + self.layout.outwards * (self.layout.robots - 1) * spacing
         route = build_route(approach, self.spans, self.flown)
         return Formation(route, self.world, self.limits, self.spacing)
-
-    def with_spacing(self, spacing: float) -> FlightPlanner:
-        """With another distance between robots in file [m]."""
-        return replace(self, spacing=spacing)
 
     def spaced_out(self) -> FlightPlanner:
         """With the file's spacing enlarged until robots keep their separation, or to its double.
@@ -221,7 +205,7 @@ class FlightPlanner:
         Corners and arcs bring robots nearer to each other than their distance along the route.
         """
         for share in WIDER:
-            wider = self.with_spacing(share * self.spacing)
+            wider = replace(self, spacing=share * self.spacing)
             if wider.formation().separation >= APART:
                 break
         return wider
@@ -242,7 +226,7 @@ class FlightPlanner:
         count = round(distance / SAMPLE)
         away = SAMPLE * np.arange(count, 0, -1)[:, None] * self.layout.outwards
         start = np.column_stack((self.flown[0, :2] + away, np.zeros(count)))
-        spacing = self.spacing + count * SAMPLE * self.world.step / (self.robots - 1)
+        spacing = self.spacing + count * SAMPLE * self.world.step / (self.layout.robots - 1)
         return replace(self, flown=np.concatenate((start, self.flown)), spacing=spacing)
 
     def cable_lengths(self, formation: Formation) -> FloatArray:
@@ -288,7 +272,12 @@ class FlightPlanner:
             for passage in span.passages:
                 along = next(passed) * self.world.step
                 when = limits.hover_before + found.when(along)
-                crossings.append(self._crossing(k, passage, along, formation, when))
+                x, y, z = formation.point(along).tolist()
+                letter = passage.gate.letter
+                lies = self.world.altitude + passage.cable_height * self.world.step
+                crossed = (letter.older, letter.over, letter.sense)
+                length = formation.arc_length(along)
+                crossings.append(PlannedCrossing(k, *crossed, (x, y), z, lies, length, when))
         passes = [limits.hover_before + found.when(stop) for stop in formation.stops[:-1]]
         return MotionPlan(
             schedule=schedule if isinstance(schedule, str) else schedule.raw_status,
@@ -303,29 +292,10 @@ class FlightPlanner:
             notes=notes,
         )
 
-    def _crossing(
-        self, span: int, passage: Passage, along: float, formation: Formation, when: float
-    ) -> PlannedCrossing:
-        x, y, z = formation.point(along).tolist()
-        letter = passage.gate.letter
-        lies = self.world.altitude + passage.cable_height * self.world.step
-        return PlannedCrossing(
-            span,
-            letter.older,
-            letter.over,
-            letter.sense,
-            (x, y),
-            z,
-            lies,
-            formation.arc_length(along),
-            when,
-        )
-
 
 def sample_times(count: int) -> FloatArray:
     """Times of the first samples of a plan [s]."""
-    times: FloatArray = INTERVAL * np.arange(count, dtype=np.float64)
-    return times
+    return np.asarray(INTERVAL * np.arange(count, dtype=np.float64))
 
 
 def with_margin(limits: FlightLimits) -> tuple[float, float]:
@@ -373,9 +343,7 @@ def plan_flight(
     >>> [crossing.name for crossing in plan.crossings]
     ['span 4 over span 1', 'span 4 under span 1', 'span 4 over span 2']
     """
-    if schedule not in SCHEDULES:
-        raise RequirementError(f"a schedule is one of {', '.join(SCHEDULES)}, not {schedule!r}")
-    layout = layout_of_supports(cable, supports)
-    planner = FlightPlanner(layout, world, limits or FlightLimits())
+    request = FlightRequest(name, chosen_by, world, limits or FlightLimits(), schedule)
+    planner = FlightPlanner(layout_of_supports(cable, supports), world, request.limits)
     motion = planner.with_routes(shape or SpanShape()).spaced_out().motion(schedule)
-    return with_supports(motion, name, cable, supports, chosen_by)
+    return with_supports(motion, cable, supports, request)

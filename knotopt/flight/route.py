@@ -16,6 +16,7 @@ from scipy.sparse.linalg import spsolve
 
 from knotopt.arrays import FloatArray
 from knotopt.flight.gates import Gate, RouteShape
+from knotopt.path.curve import length_along
 
 SAMPLE = 0.04  # between points of a route while it is smoothed [grid steps]
 SMOOTHING = 0.3  # length over which corners are rounded [grid steps]
@@ -159,11 +160,6 @@ class Route:
     stops: FloatArray
     passed: tuple[float, ...]
 
-    @property
-    def length(self) -> float:
-        """The coordinate at the end [grid steps]."""
-        return float(self.along[-1])
-
 
 def build_route(
     approach: FloatArray, spans: Sequence[SpanRoute], frozen: FloatArray | None = None
@@ -220,7 +216,7 @@ def _sampled(points: FloatArray) -> FloatArray:
 
 def _profile(piece: FloatArray, at: list[int], passages: Sequence[Passage]) -> FloatArray:
     """Heights along a way: level through gates, ramps between, zero at both ends."""
-    along = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(piece, axis=0), axis=1))))
+    along = length_along(piece)
     end = along[-1]
     places, values = [0.0], [0.0]
     for k, (index, passage) in enumerate(zip(at, passages, strict=True)):
@@ -253,5 +249,4 @@ def _smoothed(points: FloatArray, firm: FloatArray) -> FloatArray:
     )
     stiffness = (SMOOTHING / SAMPLE) ** 6
     system = (diags_array(firm) @ eye_array(count) + stiffness * (rows.T @ rows)).tocsc()
-    smooth: FloatArray = spsolve(system, firm[:, None] * points)
-    return smooth
+    return np.asarray(spsolve(system, firm[:, None] * points))

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+import shapely
 
 from knotopt.arrays import FloatArray, IntArray
 from knotopt.flight.gates import (
@@ -25,7 +26,7 @@ from knotopt.flight.gates import (
 )
 from knotopt.flight.lattice import HIDDEN, Lattice, ShortestWays, build_lattice
 from knotopt.flight.layout import Letter
-from knotopt.flight.obstacles import obstacles_between
+from knotopt.flight.obstacles import Obstacles, nearest
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,7 +94,11 @@ class Router:
         barriers: Sequence[FloatArray] = (),
     ) -> None:
         self.start, self.goal, self.shape = start, goal, shape
-        self.obstacles = obstacles_between(start, goal, laid, robots, shape.clear, barriers)
+        lines = tuple(shapely.LineString(points) for points in laid)
+        cable = shapely.union_all([*lines, *(shapely.LineString(points) for points in barriers)])
+        others = robots[nearest(robots, np.stack((start, goal))) > 1e-6]
+        posts = np.concatenate((robots, goal[None]))
+        self.obstacles = Obstacles(lines, cable, others, posts, shape.clear)
         self.lattice: Lattice = build_lattice(self.obstacles, start, goal)
 
     def find(self, word: Sequence[Letter], crossed: Crossed) -> Way | None:

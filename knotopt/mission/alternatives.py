@@ -51,15 +51,7 @@ def plan_set(chosen: SupportSet, request: FlightRequest) -> FlightPlan:
     ------
     As `plan_flight`.
     """
-    return plan_flight(
-        request.name,
-        chosen.cable,
-        chosen.supports,
-        request.chosen_by,
-        request.world,
-        request.limits,
-        request.schedule,
-    )
+    return plan_flight(cable=chosen.cable, supports=chosen.supports, **vars(request))
 
 
 def rehearse_first(
@@ -131,9 +123,9 @@ def first_good(
             found.append((chosen, attempt(chosen)))
         except RequirementError as error:
             failed.append((chosen, error))
-            continue
-        if not against(found[-1][1]):
-            break
+        else:
+            if not against(found[-1][1]):
+                break
     if not found:
         raise failed[0][1]
     best = found[-1][1]

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, fields
+from dataclasses import asdict
 from typing import Any
 
 from knotopt.export.recheck import FitReport
 from knotopt.mission.mission import Mission
 from knotopt.sim.trials import Flight
 from knotopt.supports.support_set import place
-from knotopt.verify.flight_limits import LimitsReport, Worst
+from knotopt.verify.flight_limits import LimitsReport
 from knotopt.verify.flight_states import StateComparison, format_states
+
+MEASURED = ("deviation", "speed", "acceleration", "separation", "cable", "lowest", "highest")
+"""What is said of the fitted polynomials, in this order."""
 
 
 def mission_content(mission: Mission) -> dict[str, Any]:
@@ -58,10 +61,7 @@ def flight_content(name: str, flight: Flight) -> dict[str, Any]:
     verdict, record, examination = flight.verdict, flight.record, flight.examination
     return {
         "flight": name,
-        "noise": record.disturbance.noise,
-        "wind": list(record.disturbance.wind),
-        "gust": record.disturbance.gust,
-        "seed": record.disturbance.seed,
+        **asdict(record.disturbance),
         "outcome": str(verdict.outcome),
         "knot": verdict.knot,
         "polynomial": verdict.polynomial,
@@ -79,13 +79,9 @@ def flight_content(name: str, flight: Flight) -> dict[str, Any]:
 
 def states_content(comparison: StateComparison) -> dict[str, Any]:
     """The cable's states after each crossing, for JSON."""
-    planned, executed = (
-        [format_states(states) for states in sequence.steps]
-        for sequence in (comparison.planned, comparison.executed)
-    )
     return {
-        "planned": planned,
-        "executed": executed,
+        "planned": [format_states(states) for states in comparison.planned.steps],
+        "executed": [format_states(states) for states in comparison.executed.steps],
         "results": list(comparison.results),
         "difference": comparison.difference,
     }
@@ -93,30 +89,23 @@ def states_content(comparison: StateComparison) -> dict[str, Any]:
 
 def limits_content(report: LimitsReport) -> dict[str, Any]:
     """What was measured beside each limit, for JSON."""
-    found = {}
-    for field in fields(report):
-        worst: Worst = getattr(report, field.name)
-        found[field.name] = {
+    return {
+        name: {
             "value": _number(worst.value),
             "limit": _number(worst.limit),
             "robots": list(worst.robots),
             "time": _number(worst.time),
             "broken": worst.broken,
         }
-    return found
+        for name, worst in vars(report).items()
+    }
 
 
 def _fit_content(fit: FitReport) -> dict[str, Any]:
     return {
         "parts": fit.parts,
         "pieces": fit.pieces,
-        "deviation": _number(fit.deviation.value),
-        "speed": _number(fit.speed.value),
-        "acceleration": _number(fit.acceleration.value),
-        "separation": _number(fit.separation.value),
-        "cable": _number(fit.cable.value),
-        "lowest": _number(fit.lowest.value),
-        "highest": _number(fit.highest.value),
+        **{name: _number(getattr(fit, name).value) for name in MEASURED},
         "gaps": [
             {
                 "crossing": each.crossing.name,

@@ -5,6 +5,8 @@ from __future__ import annotations
 import logging
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import accumulate
+from operator import attrgetter
 
 import numpy as np
 
@@ -18,7 +20,6 @@ from knotopt.flight.leader_crossings import happened_word, leader_crossings
 from knotopt.flight.plan import MotionPlan
 from knotopt.flight.planner import INTERVAL, FlightPlanner, sample_times, with_margin
 from knotopt.flight.route import HeightShape, SpanRoute, SpanShape
-from knotopt.flight.router import Router
 from knotopt.rehearsal.observer import Observer
 from knotopt.sim.simulation import Checkpoint
 from knotopt.sim.simulators import MUJOCO, Simulator
@@ -130,26 +131,24 @@ class RehearsedFlight:
 
     def _timing(self) -> Schedule:
         """The schedules of all legs, one after the other."""
-        nodes, times, pace, start = [], [], [], 0.0
-        for leg in self.legs:
-            inner = slice(0, -1)
-            nodes.append(leg.timing.nodes[inner])
-            times.append(start + leg.timing.times[inner])
-            pace.append(leg.timing.pace[inner])
-            start += INTERVAL * len(leg.setpoints)
-        last = self.legs[-1].timing
+        timings = [leg.timing for leg in self.legs]
+        durations = (INTERVAL * len(leg.setpoints) for leg in self.legs)
+        *starts, end = accumulate(durations, initial=0.0)
+        nodes = [timing.nodes[:-1] for timing in timings]
+        times = [start + timing.times[:-1] for start, timing in zip(starts, timings, strict=True)]
+        pace = [timing.pace[:-1] for timing in timings]
         return Schedule(
-            np.append(np.concatenate(nodes), last.nodes[-1]),
-            np.append(np.concatenate(times), start),
-            np.append(np.concatenate(pace), last.pace[-1]),
-            False,
-            "rehearsed",
-            0,
+            np.concatenate((*nodes, timings[-1].nodes[-1:])),
+            np.concatenate((*times, [end])),
+            np.concatenate((*pace, timings[-1].pace[-1:])),
+            is_optimal=False,
+            raw_status="rehearsed",
+            iterations=0,
         )
 
     def fly(self) -> int | None:
         """Fly all spans; return the one where robots got stuck (1-based), if there is one."""
-        for span in range(1, self.planner.robots):
+        for span in range(1, self.planner.layout.robots):
             self.fly_span(span)
             if self.stuck:
                 return span
@@ -157,7 +156,7 @@ class RehearsedFlight:
 
     def fly_span(self, span: int) -> None:
         """Fly the leader from its stop at robot `span`'s place to the next one."""
-        word = self.planner.words[span - 1]
+        word = self.planner.layout.words[span - 1]
         self.began.append(self.simulation.clock)
         if not word:
             self._take(self._fly(span, self.planner.spans[span - 1], 0))
@@ -168,17 +167,13 @@ class RehearsedFlight:
     def _next_crossing(self, span: int, word: Word, done: int) -> None:
         """Fly through gate `done` (from 0) of a span, or from the last one to the next robot."""
         start = self.simulation.checkpoint()
-        best: _Leg | None = None
+        legs = []
         for route in self._ways_on(span, word, done):
             self.simulation.restore(start)
-            trial = self._fly(span, route, done + 1)
-            if best is None or trial.rank < best.rank:
-                best = trial
-            if trial.rank == (0, 0):
+            legs.append(self._fly(span, route, done + 1))
+            if legs[-1].rank == (0, 0):
                 break
-        if best is None:  # no way on was found: what was planned before is flown
-            self.simulation.restore(start)
-            best = self._fly(span, self.planner.spans[span - 1], done + 1)
+        best = min(legs, key=attrgetter("rank"))
         self.simulation.restore(best.checkpoint)
         self._take(best)
         name = f"span {span} {word[done]}" if done < len(word) else f"the end of span {span}"
@@ -194,26 +189,22 @@ class RehearsedFlight:
         self.planner = leg.planner.with_flown(self.along)
 
     def _ways_on(self, span: int, word: Word, done: int) -> Iterator[SpanRoute]:
-        """Routes over a span that go on from here, past the cable as it lies."""
+        """Routes over a span that go on from here, past the cable as it lies.
+
+        If there is none, the one that was planned before.
+        """
         planner = self.planner
         observer = Observer(planner, self.simulation)
         laid = observer.laid(span - 1)
         flown = planner.spans[span - 1].up_to(done) if done else None
-        start = planner.places[span - 1] if flown is None else flown.points[-1]
+        start = planner.layout.places[span - 1] if flown is None else flown.points[-1]
         tether = observer.tether(span)
         walls = [[planner.layout.tail, tether]] if tether is not None else []
         seen = set()
         for barriers in (*walls, [planner.layout.tail], []):
             for shape in self.shapes:
-                router = Router(
-                    laid.in_plan,
-                    planner.places[:span],
-                    start,
-                    planner.places[span],
-                    planner.cleared(shape.route),
-                    barriers,
-                )
                 crossed = observer.crossed(span, laid, done, 0.5 * shape.route.apart)
+                router = planner.router(span, start, laid, shape, barriers)
                 way = router.find(word[done:], crossed)
                 if way is None:
                     continue
@@ -229,7 +220,8 @@ class RehearsedFlight:
                     seen.add(key)
                     yield route
             if seen:
-                break
+                return
+        yield planner.spans[span - 1]
 
     def _fly(self, span: int, route: SpanRoute, gates: int) -> _Leg:
         """Fly through that many gates of a route, or to its end."""
@@ -237,7 +229,7 @@ class RehearsedFlight:
         formation = planner.formation()
         before = sum(len(each.passages) for each in planner.spans[: span - 1])
         step = planner.world.step
-        end = formation.stops[span] if span < planner.robots - 1 else formation.end
+        end = formation.stops[span] if span < planner.layout.robots - 1 else formation.end
         if gates <= len(route.passages) and gates:
             gate = route.passages[gates - 1].gate
             end = (formation.route.passed[before + gates - 1] + gate.run) * step
@@ -262,7 +254,7 @@ class RehearsedFlight:
         crossings = leader_crossings(self.simulation.record(), span, self.began[span - 1])
         wanted, happened = (
             [(letter.older, letter.over, letter.sense) for letter in word]
-            for word in (self.planner.words[span - 1][:gates], happened_word(crossings))
+            for word in (self.planner.layout.words[span - 1][:gates], happened_word(crossings))
         )
         same = 0
         while same < min(len(wanted), len(happened)) and wanted[same] == happened[same]:

@@ -13,6 +13,7 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass, replace
 from enum import StrEnum
+from functools import partial
 from typing import Any
 
 from formulations.backends import DEFAULT
@@ -201,10 +202,7 @@ def solve_flown(
     tests = tests or FlightTests()
     if fly is None:
         MUJOCO.require()
-
-        def fly(chosen: MinimalSupports) -> FlownSet:
-            return fly_set(name, chosen, tests)
-
+        fly = partial(fly_set, name, tests=tests)
     began = time.monotonic()
     passed = defaultdict[Cut, list[Supports]](list)
     for each in known:

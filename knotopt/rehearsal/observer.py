@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 
 import numpy as np
 import shapely
 
 from knotopt.arrays import FloatArray
+from knotopt.flight.gates import Gate
 from knotopt.flight.laid_cable import LaidCable
-from knotopt.flight.layout import Letter
 from knotopt.flight.planner import FlightPlanner
 from knotopt.flight.route import SpanRoute
 from knotopt.sim.simulation import Simulation
@@ -38,7 +39,7 @@ class Observer:
         planner, simulation = self.planner, self.simulation
         found = list(planner.modelled_cable(spans).spans)
         robots = self._in_plan(simulation.robots)
-        arrived = np.linalg.norm(robots - planner.places, axis=1) < ARRIVED
+        arrived = np.linalg.norm(robots - planner.layout.places, axis=1) < ARRIVED
         for i in np.flatnonzero(arrived[:spans] & arrived[1 : spans + 1]).tolist():
             found[i] = self._in_grid(i)
         return LaidCable(found)
@@ -73,10 +74,10 @@ class Observer:
             for older, gates in _by_older(route).items():
                 places = _places(lines[older - 1], lines[later - 1])
                 if len(places) != len(gates):
-                    places = [along for along, _ in gates]
-                ranks = (rank for _, rank in gates)
+                    places = [gate.along for gate in gates]
+                ranks = (gate.letter.rank for gate in gates)
                 found.setdefault(older, []).extend(zip(ranks, places, strict=True))
-        word = planner.words[span - 1]
+        word = planner.layout.words[span - 1]
         if 0 < done < len(word) and word[done - 1].older == word[done].older:
             last, wanted = word[done - 1].rank, word[done].rank
             if last is not None and wanted is not None:
@@ -92,23 +93,20 @@ class Observer:
         return self._in_plan(self.simulation.cable[self.simulation.held[span - 1] :])
 
     def _in_plan(self, points: FloatArray) -> FloatArray:
-        flat: FloatArray = points[:, :2] / self.planner.world.step
-        return flat
+        return np.asarray(points[:, :2] / self.planner.world.step)
 
     def _in_grid(self, span: int) -> FloatArray:
         """Span `span` (from 0), heights above the robots'."""
         simulation, world = self.simulation, self.planner.world
         points = simulation.cable[simulation.held[span] : simulation.held[span + 1] + 1]
-        heights_above: FloatArray = (points - [0, 0, world.altitude]) / world.step
-        return heights_above
+        return np.asarray((points - [0, 0, world.altitude]) / world.step)
 
 
-def _by_older(route: SpanRoute) -> dict[int, list[tuple[float, float | None]]]:
-    """Arc length and rank of a route's gates, in order, for each span crossed."""
-    found: dict[int, list[tuple[float, float | None]]] = {}
-    for passage in sorted(route.passages, key=lambda each: each.gate.along):
-        letter: Letter = passage.gate.letter
-        found.setdefault(letter.older, []).append((passage.gate.along, letter.rank))
+def _by_older(route: SpanRoute) -> dict[int, list[Gate]]:
+    """A route's gates for each span crossed, in order along it."""
+    found: dict[int, list[Gate]] = {}
+    for gate in sorted((passage.gate for passage in route.passages), key=attrgetter("along")):
+        found.setdefault(gate.letter.older, []).append(gate)
     return found
 
 

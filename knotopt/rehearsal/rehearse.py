@@ -79,8 +79,7 @@ class _Task:
         self, what: str, motion: MotionPlan, planner: FlightPlanner, lengths: FloatArray | None
     ) -> _Candidate:
         """Fly a motion on the planner's routes, undisturbed and, if that ties, disturbed."""
-        name, chosen_by = self.request.name, self.request.chosen_by
-        plan = with_supports(motion, name, self.cable, self.supports, chosen_by)
+        plan = with_supports(motion, self.cable, self.supports, self.request)
         flight = fly_trial(plan, simulator=self.simulator)
         robust, disturbed = 0, ""
         if flight.is_tied:
@@ -168,7 +167,7 @@ def _on_modelled_routes(task: _Task, planner: FlightPlanner) -> Iterator[_Candid
 def _rehearsed(task: _Task, planner: FlightPlanner, attempts: int) -> Iterator[_Candidate]:
     """Rehearsals, each flown by the schedule requested, if it got to the end, and as rehearsed."""
     modelled = planner.with_routes(SHAPES[0])
-    crosses = np.array([len(word) > 0 for word in planner.words])
+    crosses = np.array([len(word) > 0 for word in planner.layout.words])
     more = np.ones(len(crosses))  # cable, where robots got stuck
     ways = 0
     for number, (spare, first) in enumerate(ATTEMPTS[:attempts], 1):
@@ -187,7 +186,7 @@ def _rehearsed(task: _Task, planner: FlightPlanner, attempts: int) -> Iterator[_
             flown = replace(found.flown, given_up=tuple(run.given_up), rehearsals=number, ways=ways)
             yield replace(found, flown=flown)
         wider = WIDEN if found.flown.separation < 1 else 1.0
-        modelled = modelled.with_spacing(wider * run.planner.spacing)
+        modelled = replace(modelled, spacing=wider * run.planner.spacing)
 
 
 def _from_farther(task: _Task, planner: FlightPlanner, lengths: FloatArray) -> Iterator[_Candidate]:

@@ -8,7 +8,7 @@ as fast as cable draws them. Their ways, smoothed, become part of the plan.
 from __future__ import annotations
 
 import logging
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -86,9 +86,9 @@ def tighten_flight(flown: FlownSet, apart: float, simulator: Simulator = MUJOCO)
     if not flown.is_tied:
         return flown.noted("not pulled tight: the flight does not tie the knot")
     logger.info("pulling tight")
-    pull = _pull(plan, apart, simulator)
+    ways, why = _pull(plan, apart, simulator)
     for share in SHARES:
-        tightened = _tightened(plan, pull.ways[: max(2, round(share * len(pull.ways)))])
+        tightened = _tightened(plan, ways[: max(2, round(share * len(ways)))])
         flight = fly_trial(tightened, simulator=simulator)
         robust = sum(each.is_tied for each in fly_trials(tightened, TRIALS, simulator))
         logger.info(
@@ -99,21 +99,22 @@ def tighten_flight(flown: FlownSet, apart: float, simulator: Simulator = MUJOCO)
     else:
         return flown.noted("not pulled tight: no pull keeps the knot")
     tight = replace(flown, undisturbed=flight, robust=robust)
-    why = pull.why if share == 1 else "farther it is not the knot"
+    if share < 1:
+        why = "farther it is not the knot"
     pulled = f"the ends are pulled {tightened.ends_apart[1]:.2f} m apart, not {apart:g} m"
     return tight.noted(f"{pulled}: {why}") if why else tight
 
 
-@dataclass(frozen=True, eq=False)
-class _Pull:
-    """The robots' ways, shape (T, R, 3), a sample every `FRAME_TIME`; why it ended, "" if done."""
+def _pull(plan: FlightPlan, apart: float, simulator: Simulator) -> tuple[FloatArray, str]:
+    """Fly the plan, then the ends away from each other until something stops them.
 
-    ways: FloatArray
-    why: str
-
-
-def _pull(plan: FlightPlan, apart: float, simulator: Simulator) -> _Pull:
-    """Fly the plan, then the ends away from each other until something stops them."""
+    Returns
+    -------
+    ways : float array, shape (T, R, 3)
+        Of the robots, a sample every `FRAME_TIME`.
+    why : str
+        It ended; "" if the ends are as far apart as they should.
+    """
     simulation = simulator.start(
         plan.positions[0], plan.lengths, step=plan.world.step, speed=plan.limits.speed
     )
@@ -143,8 +144,8 @@ def _pull(plan: FlightPlan, apart: float, simulator: Simulator) -> _Pull:
     ways = record.robots[begun:end]
     ways = ways[np.isfinite(ways).all(axis=(1, 2))]  # a simulation may break down
     if not gave_way:
-        return _Pull(ways, "the cable holds them")
-    return _Pull(ways, "" if is_far(simulation.robots) else nearest(simulation.robots)[1])
+        return ways, "the cable holds them"
+    return ways, "" if is_far(simulation.robots) else nearest(simulation.robots)[1]
 
 
 def _tightened(plan: FlightPlan, ways: FloatArray) -> FlightPlan:

@@ -48,14 +48,12 @@ def hanging_chain(start: FloatArray, end: FloatArray, length: float, links: int)
     span = end - start
     across = float(np.hypot(span[0], span[1]))
     if length * (1 - TAUT) <= np.linalg.norm(span):
-        straight: FloatArray = start + np.linspace(0, 1, links + 1)[:, None] * span
-        return straight
+        return np.asarray(start + np.linspace(0, 1, links + 1)[:, None] * span)
     heading = np.array([span[0] / across, span[1] / across, 0.0])
     units = _directions(across / length * links, float(span[2]) / length * links, links)
     moves = units * (length / links)
     way = np.cumsum(moves[:, :1] * heading + moves[:, 1:] * np.array([0.0, 0.0, 1.0]), axis=0)
-    chain: FloatArray = start + np.vstack((np.zeros(3), way))
-    return chain
+    return np.asarray(start + np.vstack((np.zeros(3), way)))
 
 
 def _directions(reach: float, rise: float, links: int) -> FloatArray:
@@ -73,8 +71,7 @@ def _directions(reach: float, rise: float, links: int) -> FloatArray:
             maxiter=MOST_STEPS,
         )
         pulls = np.column_stack((np.full(links, h), v + height))
-        directions: FloatArray = pulls / np.hypot(pulls[:, :1], pulls[:, 1:])
-        return directions
+        return np.asarray(pulls / np.hypot(pulls[:, :1], pulls[:, 1:]))
 
     def beyond(log: float) -> float:
         return float(units(np.exp(log))[:, 0].sum()) - reach

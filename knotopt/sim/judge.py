@@ -71,9 +71,7 @@ class Verdict:
         return f"{self.outcome}: {tied}"
 
 
-def judge(
-    record: FlightRecord, wanted: Cable | GridDiagram, material: Material | None = None
-) -> Verdict:
+def judge(record: FlightRecord, wanted: Cable | GridDiagram) -> Verdict:
     """Which knot a flight tied, and whether that can be trusted.
 
     Parameters
@@ -81,10 +79,7 @@ def judge(
     record : FlightRecord
     wanted : Cable or GridDiagram
         The knot to tie.
-    material : Material
-        That the flight was simulated with.
     """
-    nominal = 2 * (material or Material()).radius
     cable = wanted if isinstance(wanted, Cable) else Cable(wanted, "L+")
     final = record.cable[-1]
     if not np.isfinite(final).all():
@@ -92,7 +87,7 @@ def judge(
     found = closed_polynomials(final)
     agree = len(set(found)) == 1
     is_wanted = agree and found[0] == alexander_polynomial(cable)
-    if not agree or record.smallest_distance < SOUND * nominal:
+    if not agree or record.smallest_distance < SOUND * 2 * Material.radius:
         outcome = Outcome.UNSOUND
     elif not record.finished:
         outcome = Outcome.STUCK

@@ -9,7 +9,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -30,8 +30,7 @@ NOISE_TIME = 0.5  # in which position errors change [s]
 GUST_TIME = 1.0  # in which the wind changes [s]
 
 
-@dataclass(frozen=True, eq=False)
-class Frame:
+class Frame(NamedTuple):
     """One sample of a record: time and clock [s], and the centreline, shape (M, 3) [m]."""
 
     time: float
@@ -49,6 +48,8 @@ class FlightState:
     largest_tension: float = 0.0
     commands: int = 0
     clock: float = 0.0
+    mark: float = 0.0
+    marked_at: int = 0
     finished: bool = True
     frames: tuple[Frame, ...] = ()
     seconds: float = 0.0
@@ -124,8 +125,7 @@ class MujocoSimulation:
     @property
     def cable(self) -> FloatArray:
         """The centreline now, from p_1 to p_2N, shape (M, 3) [m]."""
-        cable: FloatArray = self._built.origin + self._data.qpos.reshape(-1, 3)
-        return cable
+        return np.asarray(self._built.origin + self._data.qpos.reshape(-1, 3))
 
     @property
     def held(self) -> IntArray:
@@ -135,8 +135,7 @@ class MujocoSimulation:
     @property
     def robots(self) -> FloatArray:
         """Positions of the robots now, shape (R, 3) [m]."""
-        robots: FloatArray = self.cable[self.held]
-        return robots
+        return np.asarray(self.cable[self.held])
 
     @property
     def time(self) -> float:
@@ -162,9 +161,8 @@ class MujocoSimulation:
             raise RequirementError(f"the interval between setpoints is positive, not {interval!r}")
         velocities = np.diff(positions, axis=0) / interval
         duration = len(velocities) * interval
-        passed = mark = 0.0
-        marked_at = self._now.commands
-        started_at = self._now.clock
+        passed, started_at = 0.0, self._now.clock
+        self._mark(passed)
         self._now.finished = False
         while passed < duration - 1e-9:
             k = min(int(passed / interval), len(velocities) - 1)
@@ -172,11 +170,7 @@ class MujocoSimulation:
             rate = self._fly(setpoints, velocities[k])
             passed = min(duration, passed + rate * CONTROL)
             self._now.clock = started_at + passed
-            if self._now.commands % FRAME == 0:
-                self._keep_frame()
-            if passed - mark >= PROGRESS:
-                mark, marked_at = passed, self._now.commands
-            if (self._now.commands - marked_at) * CONTROL > STALL or not self._is_sound():
+            if not self._goes_on(passed):
                 break
         else:
             self._now.finished = True
@@ -187,18 +181,14 @@ class MujocoSimulation:
         began = time.perf_counter()
         yields = ~velocities.any(axis=1)
         setpoints = self.robots
-        mark, marked_at = self._now.clock, self._now.commands
+        self._mark(self._now.clock)
         self._now.finished = True
         while goes_on(self.robots):
             setpoints[yields, :2] = self.robots[yields, :2]
             rate = self._fly(setpoints, velocities)
             setpoints += rate * CONTROL * velocities
             self._now.clock += rate * CONTROL
-            if self._now.commands % FRAME == 0:
-                self._keep_frame()
-            if self._now.clock - mark >= PROGRESS:
-                mark, marked_at = self._now.clock, self._now.commands
-            if (self._now.commands - marked_at) * CONTROL > STALL or not self._is_sound():
+            if not self._goes_on(self._now.clock):
                 self._now.finished = False
                 break
         self._now.seconds += time.perf_counter() - began
@@ -219,10 +209,11 @@ class MujocoSimulation:
 
     def record(self) -> FlightRecord:
         """What happened since the start."""
+        times, clock, cable = map(np.array, zip(*self._now.frames, strict=True))
         return FlightRecord(
-            np.array([frame.time for frame in self._now.frames]),
-            np.array([frame.clock for frame in self._now.frames]),
-            np.array([frame.cable for frame in self._now.frames]),
+            times,
+            clock,
+            cable,
             self.held,
             self._now.finished,
             self._now.smallest_distance,
@@ -247,21 +238,35 @@ class MujocoSimulation:
         self._observe()
         return rate
 
+    def _mark(self, passed: float) -> None:
+        """Remember how far the clock is, and when: robots that get no farther are stuck."""
+        self._now.mark, self._now.marked_at = passed, self._now.commands
+
+    def _goes_on(self, passed: float) -> bool:
+        """Record what a command led to; whether robots get on, and all is sound."""
+        if self._now.commands % FRAME == 0:
+            self._keep_frame()
+        if passed - self._now.mark >= PROGRESS:
+            self._mark(passed)
+        return (self._now.commands - self._now.marked_at) * CONTROL <= STALL and self._is_sound()
+
     def _disturb(self) -> None:
-        """Position errors and wind a command later: Ornstein-Uhlenbeck processes."""
+        """Position errors and wind a command later."""
         disturbance = self.disturbance
         if disturbance.noise:
-            keep = np.exp(-CONTROL / NOISE_TIME)
-            kick = self._random.normal(0, disturbance.noise, self._now.noise.shape)
-            self._now.noise = keep * self._now.noise + np.sqrt(1 - keep**2) * kick
+            self._now.noise = self._drifted(self._now.noise, disturbance.noise, NOISE_TIME)
         if disturbance.gust:
-            keep = np.exp(-CONTROL / GUST_TIME)
-            kick = self._random.normal(0, disturbance.gust, 2)
-            self._now.gust = keep * self._now.gust + np.sqrt(1 - keep**2) * kick
+            self._now.gust = self._drifted(self._now.gust, disturbance.gust, GUST_TIME)
         if disturbance.gust or any(disturbance.wind):
             air = np.array([*(np.array(disturbance.wind) + self._now.gust), 0.0])
             drag = self._model.dof_damping.reshape(-1, 3)
             self._data.qfrc_applied[:] = (drag * air).ravel()
+
+    def _drifted(self, values: FloatArray, deviation: float, within: float) -> FloatArray:
+        """Values of an Ornstein-Uhlenbeck process a command later."""
+        keep = np.exp(-CONTROL / within)
+        kick = self._random.normal(0, deviation, values.shape)
+        return np.asarray(keep * values + np.sqrt(1 - keep**2) * kick)
 
     def _observe(self) -> None:
         data = self._data

@@ -117,13 +117,13 @@ def simulate(
     return simulation.record()
 
 
-def wilson_interval(successes: int, trials: int, confidence: float = 0.95) -> tuple[float, float]:
-    """Wilson's interval for a success rate.
+def wilson_interval(successes: int, trials: int) -> tuple[float, float]:
+    """Wilson's 95 % interval for a success rate.
 
     Examples
     --------
     >>> [round(bound, 3) for bound in wilson_interval(9, 10)]
     [0.596, 0.982]
     """
-    bounds = binomtest(successes, trials).proportion_ci(confidence, method="wilson")
+    bounds = binomtest(successes, trials).proportion_ci(0.95, method="wilson")
     return float(bounds.low), float(bounds.high)

@@ -76,6 +76,19 @@ def test_a_set_that_ties(cli: Cli, flights: Flights, tmp_path: Path) -> None:
     assert err.count("cut off: wrong knot: unknot") == 2 and "as planned" not in err
 
 
+@pytest.mark.parametrize("verbose", ["-v", "-vv"])
+def test_sets_are_said_once(cli: Cli, flights: Flights, tmp_path: Path, verbose: str) -> None:
+    log = tmp_path / "a.log"
+    status, _, err = cli(*COMMAND, "--cut", "L+", verbose, "--log", log)
+    assert status == 0
+    for text in (err, log.read_text()):
+        assert text.count("set 1: 5 robots, cut L+, p4 p5 p7\n") == 1
+        assert text.count("cut off: wrong knot: unknot") == 2
+    flights.flown.clear()
+    status, _, err = cli(*COMMAND, "--cut", "L+", "--log", log)
+    assert status == 0 and err.count("cut off: wrong knot: unknot") == 2
+
+
 def test_as_json(cli: Cli, flights: Flights, tmp_path: Path) -> None:
     file = tmp_path / "flown.json"
     options = ("--cut", "L+", "--noise", "0.02", "--trials", "1", "--out", file)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -54,7 +55,7 @@ def test_places_and_words_of_a_grid_written_by_hand_give_the_grid_s_flight() -> 
 def test_a_step_leaves_the_planner_before_it_as_it_was() -> None:
     planner = FlightPlanner(TREFOIL)
     planned = planner.with_routes(SpanShape())
-    wider = planned.with_spacing(0.5)
+    wider = replace(planned, spacing=0.5)
     assert (planner.spans, planner.lengths) == ((), ())
     assert len(planned.spans) == len(planned.lengths) == 2
     assert (planned.spacing, wider.spacing) == (0.3, 0.5)

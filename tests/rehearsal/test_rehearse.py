@@ -61,7 +61,8 @@ def rehearsed() -> tuple[FlightPlan, tuple[str, ...], bool]:
 
 def lcf_plan(motion: MotionPlan) -> FlightPlan:
     chosen = choose_supports(shipped_knots()["3_1"].diagram, "lcf")
-    return with_supports(motion, "3_1", chosen.cable, chosen.supports, "lcf")
+    request = FlightRequest("3_1", "lcf")
+    return with_supports(motion, chosen.cable, chosen.supports, request)
 
 
 def test_a_rehearsed_plan_ties_the_trefoil() -> None:
@@ -91,7 +92,7 @@ def test_a_file_that_starts_farther_out_flies_the_same_route() -> None:
     after = planner.started_farther(2.0).formation()
     more = after.stops[0] - before.stops[0]
     assert more == pytest.approx(2.0 * ROOM.step, abs=0.01)
-    assert (planner.robots - 1) * (after.spacing - before.spacing) == pytest.approx(more)
+    assert (planner.layout.robots - 1) * (after.spacing - before.spacing) == pytest.approx(more)
     inner = before.nodes
     leader = [each.positions(inner + shift)[:, -1] for each, shift in ((before, 0), (after, more))]
     assert leader[1] == pytest.approx(leader[0], abs=1e-3)
@@ -159,7 +160,7 @@ def hovering(away: float) -> tuple[FlightPlanner, Simulation]:
     layout = layout_of_supports(cable, tuple(range(2, len(cable.path))))
     apart = np.linalg.norm(np.diff(layout.places, axis=0), axis=1)
     planner = FlightPlanner(layout, lengths=tuple(1.1 * apart))
-    flat = planner.places * ROOM.step
+    flat = planner.layout.places * ROOM.step
     robots = np.column_stack((flat, np.full(len(flat), ROOM.altitude)))
     robots[2, :2] += away * (flat[1] - flat[2]) / np.hypot(*(flat[1] - flat[2]))
     lengths = np.array(planner.lengths) * ROOM.step
@@ -173,12 +174,12 @@ def test_cable_is_seen_as_it_lies_where_robots_have_arrived_and_else_as_modelled
     laid, modelled = Observer(planner, simulation).laid(3), planner.modelled_cable(3)
     spans = zip(laid.spans, modelled.spans, strict=True)
     assert [np.array_equal(one, other) for one, other in spans] == [False, True, True]
-    for end, place in zip(laid.spans[0][[0, -1]], planner.places[:2], strict=True):
+    for end, place in zip(laid.spans[0][[0, -1]], planner.layout.places[:2], strict=True):
         assert end == pytest.approx([*place, 0.0], abs=0.05)
-    tether = Observer(planner, simulation).tether(len(planner.places) - 1)
+    tether = Observer(planner, simulation).tether(len(planner.layout.places) - 1)
     assert tether is not None
-    assert tether[0] == pytest.approx(planner.places[-2], abs=0.05)
-    assert np.linalg.norm(tether - planner.places[-1], axis=1).min() > 0.5
+    assert tether[0] == pytest.approx(planner.layout.places[-2], abs=0.05)
+    assert np.linalg.norm(tether - planner.layout.places[-1], axis=1).min() > 0.5
 
 
 def test_the_height_of_cable_is_seen() -> None:
