@@ -13,12 +13,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import factorial
+from pathlib import Path
 
 import numpy as np
-from numpy.polynomial.polynomial import polyder, polyval
 from scipy.interpolate import BSpline, PPoly
 
 from knotopt.arrays import FloatArray
+from knotopt.errors import FileFormatError
 
 DEGREE = 7
 MOST_PIECES = 31
@@ -82,8 +83,13 @@ class Polynomials:
         Hovering before and after counts: only at rest is there no jump at the ends. The values
         there are no jumps.
         """
-        pieces = polyder(self.coefficients.transpose(2, 0, 1), derivative)
-        first, last = pieces[0], polyval(self.durations[:, None], pieces, tensor=False)
+        powers = np.arange(DEGREE + 1)
+        factors = np.prod([powers - k for k in range(derivative)], axis=0, dtype=np.float64)
+        exponents = np.maximum(powers - derivative, 0)
+        first = (self.coefficients * factors)[..., derivative]
+        last = np.einsum(
+            "nak,nk->na", self.coefficients * factors, self.durations[:, None] ** exponents
+        )
         rest = np.zeros((1, len(AXES)))
         before, after = np.vstack((rest, last)), np.vstack((first, rest))
         if not derivative:
@@ -119,3 +125,38 @@ class Trajectory:
     part: int
     start: float
     polynomials: Polynomials
+
+
+def read_polynomials(path: Path | str) -> Polynomials:
+    """Polynomials from a file of 33 columns.
+
+    Raises
+    ------
+    FileFormatError
+        The file cannot be read, a line is not 33 numbers, a duration is not positive, or there are
+        more pieces than a robot can keep; the message names the line.
+    """
+    path = Path(path)
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except OSError as error:
+        raise FileFormatError(f"cannot read {path}: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise FileFormatError(f"{path} is not UTF-8 text (byte {error.start})") from error
+    if not lines or lines[0].strip().lower() != HEADER.lower():
+        raise FileFormatError(f"{path}, line 1: expected {HEADER[:20]}...,yaw^7")
+    rows = []
+    for number, line in enumerate(lines[1:], 2):
+        try:
+            row = [float(entry) for entry in line.split(",")]
+        except ValueError as error:
+            raise FileFormatError(f"{path}, line {number}: {error}") from error
+        if len(row) != 33 or not np.isfinite(row).all():
+            raise FileFormatError(f"{path}, line {number}: {len(row)} entries, not 33 numbers")
+        if not row[0] > 0:
+            raise FileFormatError(f"{path}, line {number}: a duration of {row[0]:g} s")
+        rows.append(row)
+    if not 1 <= len(rows) <= MOST_PIECES:
+        raise FileFormatError(f"{path} has {len(rows)} pieces; a robot keeps 1 to {MOST_PIECES}")
+    table = np.array(rows)
+    return Polynomials(table[:, 0], table[:, 1:].reshape(-1, len(AXES), DEGREE + 1))

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from knotopt.export.waypoints import read_waypoints
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.plan_file import read_plan
 from knotopt.flight.planner import FlightPlanner, plan_flight
@@ -46,9 +47,8 @@ def test_a_plan_and_its_folder(cli: Cli, tmp_path: Path) -> None:
     assert re.search(r"limits +kept", out) and "span 4 under span 1" in out
     assert out.endswith(f"written: {folder}\n")
     assert names(folder) == FILES | robots(5) and names(folder.parent) == {"trefoil"}
-    plan = read_plan(folder / "plan.json")
-    points = np.loadtxt(folder / "waypoints.csv", delimiter=",", skiprows=1)
-    assert np.abs(points[:, 2:5] - plan.positions.reshape(-1, 3)).max() < 1e-4
+    plan, points = read_plan(folder / "plan.json"), read_waypoints(folder / "waypoints.csv")
+    assert np.abs(points.positions - plan.positions).max() < 1e-4
     check = json.loads((folder / "check.json").read_text())
     assert check["ok"] and check["duration"] < 0.8 * check["duration_fixed"]
     (folder / "robot_99.csv").write_text("of a former flight")

@@ -5,6 +5,8 @@ from __future__ import annotations
 import csv
 from dataclasses import replace
 from itertools import pairwise
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,13 +14,13 @@ import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from knotopt.errors import RequirementError
+from knotopt.errors import FileFormatError, RequirementError
 from knotopt.export.crazyswarm import export_files
 from knotopt.export.fitting import fit_trajectories
-from knotopt.export.polynomials import Polynomials
+from knotopt.export.polynomials import Polynomials, read_polynomials
 from knotopt.export.recheck import recheck
 from knotopt.export.stretch import TOLERANCE
-from knotopt.export.waypoints import waypoints_csv
+from knotopt.export.waypoints import read_waypoints, waypoints_csv
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan
 from tests.helpers.smooth_flight import AMPLE, flight
@@ -230,12 +232,13 @@ def test_a_plan_that_nobody_can_fly_is_refused() -> None:
 @settings(max_examples=10)
 def test_waypoints_are_read_back(robots: int, interval: float, depth: float) -> None:
     plan = flight(robots=robots, interval=interval, depth=depth, seconds=5)
-    rows = np.loadtxt(waypoints_csv(plan).splitlines(), delimiter=",", skiprows=1)
-    times, numbers, places, yaw = np.split(rows, [1, 2, 5], axis=1)
-    assert np.abs(times.reshape(-1, robots) - plan.times[:, None]).max() < 1e-6
-    assert (numbers.reshape(-1, robots) == np.arange(1, robots + 1)).all()
-    assert np.abs(places.reshape(-1, robots, 3) - plan.positions).max() <= 0.5e-5 + 1e-12
-    assert not yaw.any()
+    path = Path("unwritten.csv")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Path, "read_text", lambda *_, **__: waypoints_csv(plan))
+        found = read_waypoints(path)
+    assert np.abs(found.times - plan.times).max() < 1e-6
+    assert np.abs(found.positions - plan.positions).max() <= 0.5e-5 + 1e-12
+    assert not found.yaw.any()
 
 
 def test_waypoints_have_the_columns_they_say() -> None:
@@ -244,11 +247,57 @@ def test_waypoints_have_the_columns_they_say() -> None:
     assert [row["robot"] for row in rows[:4]] == ["1", "2", "3", "1"]
 
 
-def test_polynomials_are_read_back_to_the_last_digit() -> None:
+@pytest.mark.parametrize(
+    ("line", "text", "message"),
+    [
+        (1, "t,x", "line 1: expected 't,robot,x,y,z,yaw'"),
+        (3, "0.0,2,1,1", "line 3 is '0.0,2,1,1', not six numbers"),
+        (3, "0.0,2,1,b,1,0", "line 3 is"),
+        (3, "0.0,2,1,nan,1,0", "line 3 is"),
+        (5, "0.05,2,1,1,1,0", r"line 5: expected robot 1 at t = 0.05"),
+        (6, "0.07,2,1,1,1,0", r"line 6: expected robot 2 at t = 0.05"),
+        (5, "-1,1,1,1,1,0", "line 5: t = -1 does not increase"),
+    ],
+)
+def test_wrong_waypoints_are_named(tmp_path: Path, line: int, text: str, message: str) -> None:
+    lines = waypoints_csv(flight()).splitlines()
+    lines[line - 1] = text
+    path = tmp_path / "waypoints.csv"
+    path.write_text("\n".join(lines), encoding="utf-8")
+    with pytest.raises(FileFormatError, match=message):
+        read_waypoints(path)
+
+
+@pytest.mark.parametrize("read", [read_waypoints, read_polynomials])
+def test_files_that_cannot_be_read(tmp_path: Path, read: Any) -> None:
+    with pytest.raises(FileFormatError, match="cannot read"):
+        read(tmp_path / "none.csv")
+    (tmp_path / "bytes.csv").write_bytes(b"\xff\xfe")
+    with pytest.raises(FileFormatError, match="is not UTF-8"):
+        read(tmp_path / "bytes.csv")
+    (tmp_path / "empty.csv").write_text("")
+    with pytest.raises(FileFormatError, match="line 1"):
+        read(tmp_path / "empty.csv")
+
+
+def test_polynomials_are_read_back_to_the_last_digit(tmp_path: Path) -> None:
     written = fit_trajectories(flight())[-1].polynomials
-    found = np.loadtxt(written.csv().splitlines(), delimiter=",", skiprows=1)
-    assert np.array_equal(found[:, 0], written.durations)
-    assert np.array_equal(found[:, 1:].reshape(-1, 4, 8), written.coefficients)
+    path = tmp_path / "robot_03.csv"
+    path.write_text(written.csv(), encoding="utf-8")
+    found = read_polynomials(path)
+    assert np.array_equal(found.durations, written.durations)
+    assert np.array_equal(found.coefficients, written.coefficients)
+    lines = written.csv().splitlines()
+    for changed, message in (
+        ([*lines[:2], lines[2].replace(",", ";", 1)], "line 3"),
+        ([*lines[:2], lines[2] + ",1"], "line 3: 34 entries"),
+        ([lines[0], "0" + ",1" * 32], "line 2: a duration of 0 s"),
+        ([lines[0], *[lines[1]] * 32], "has 32 pieces; a robot keeps 1 to 31"),
+        (lines[:1], "has 0 pieces"),
+    ):
+        path.write_text("\n".join(changed), encoding="utf-8")
+        with pytest.raises(FileFormatError, match=message):
+            read_polynomials(path)
 
 
 def test_robots_stand_under_their_first_waypoints() -> None:
