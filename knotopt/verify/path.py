@@ -183,15 +183,12 @@ def radii(points: FloatArray) -> FloatArray:
 
 def closed_code(points: FloatArray) -> tuple[list[Visit], list[int]]:
     """Gauss code of a path in space closed far above, seen along a tilted direction."""
-    top = points[:, 2].max() + FAR
-    ends = points[[-1, 0]].copy()
-    ends[:, 2] = top
+    ends = points[[-1, 0]]
+    ends[:, 2] = points[:, 2].max() + FAR
     # The closing lines must not end where the path begins: seen along the tilt, they would touch.
     closed = np.concatenate((points, ends, points[:1] + 1e-6))
-    seen = closed.copy()
-    seen[:, 0] -= TILT[0] * closed[:, 2]
-    seen[:, 1] -= TILT[1] * closed[:, 2]
-    return curve_crossings(seen).code
+    closed[:, :2] -= closed[:, 2:] * TILT
+    return curve_crossings(closed).code
 
 
 def alexander_of(code: tuple[list[Visit], list[int]]) -> tuple[int, ...]:
@@ -202,9 +199,7 @@ def alexander_of(code: tuple[list[Visit], list[int]]) -> tuple[int, ...]:
 
 def _gaps(crossings: CurveCrossings, visits: list[Visit]) -> FloatArray:
     """Height of each crossing's upper strand on the grid above the other."""
-    first_over: dict[int, bool] = {}
-    for crossing, over in visits:
-        first_over.setdefault(crossing, over)
+    first_over = dict(reversed(visits))
     upper = np.array([first_over[k] for k in range(len(crossings))], dtype=bool)
     gaps: FloatArray = np.where(upper, crossings.gap, -crossings.gap)
     return gaps
@@ -265,8 +260,7 @@ class _Measured:
     def between(self) -> FloatArray:
         """Shortest way between crossings along the path, shape (C, C)."""
         at, which = self.visits
-        count = len(self.crossings)
-        arcs = np.full((count, count), np.inf)
+        arcs = np.full((len(self.crossings),) * 2, np.inf)
         np.minimum.at(arcs, (which[:-1], which[1:]), np.maximum(np.diff(at), 1e-12))
         ways: FloatArray = dijkstra(csgraph_from_dense(arcs, null_value=np.inf), directed=False)
         return ways
