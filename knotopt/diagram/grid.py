@@ -152,8 +152,7 @@ class GridDiagram:
         for c, r in sorted(pairs):
             rows_of.setdefault(c, []).append(r)
             columns_of.setdefault(r, []).append(c)
-        minus = [0] * len(rows_of)
-        plus = [0] * len(rows_of)
+        minus, plus = [0] * len(rows_of), [0] * len(rows_of)
         for first in rows_of:
             column, row = first, rows_of[first][0]
             while not minus[column - 1]:
@@ -299,14 +298,12 @@ def _check_two_per_line(marks: Sequence[Mark], size: int | None = None) -> None:
 
 
 def _check_one_component(minus: Sequence[int], plus: Sequence[int]) -> None:
-    column_of_minus = {row: c for c, row in enumerate(minus)}
-    unseen = set(range(len(minus)))
+    after = {row: plus[c] for c, row in enumerate(minus)}  # the row of a -1 to that of the next
     components = 0
-    while unseen:
+    while after:
         components += 1
-        column = next(iter(unseen))
-        while column in unseen:
-            unseen.remove(column)
-            column = column_of_minus[plus[column]]
+        row, following = after.popitem()
+        while following != row:
+            following = after.pop(following)
     if components != 1:
         raise GridError(f"this grid is a link of {components} components, a knot has 1")

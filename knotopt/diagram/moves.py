@@ -10,6 +10,8 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import Literal
 
+import numpy as np
+
 from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import MoveError
 
@@ -252,10 +254,7 @@ def destabilise_column(diagram: GridDiagram, column: int) -> GridDiagram:
 
 def _inverse(rows: tuple[int, ...]) -> tuple[int, ...]:
     """The column of each row, from the row of each column."""
-    columns = [0] * len(rows)
-    for column, row in enumerate(rows, 1):
-        columns[row - 1] = column
-    return tuple(columns)
+    return tuple((np.argsort(rows) + 1).tolist())
 
 
 def _transposed(diagram: GridDiagram) -> GridDiagram:
