@@ -99,17 +99,10 @@ def find_boundaries(cable: Cable) -> Boundaries:
     met_second = closing[kept + ~forward]
     loops = np.arange(count)
     return Boundaries(
-        apexes=np.concatenate(
-            (np.stack((loops, loops), axis=1), np.stack((met_first, met_second), axis=1))
+        apexes=np.column_stack((np.append(loops, met_first), np.append(loops, met_second))),
+        a=np.column_stack(
+            (np.append(crossings.first, low[kept]), np.append(crossings.second, high[kept]))
         ),
-        a=np.concatenate(
-            (
-                np.stack((crossings.first, crossings.second), axis=1),
-                np.stack((low[kept], high[kept]), axis=1),
-            )
-        ),
-        b=np.concatenate(
-            (np.tile([0, -1], (count, 1)), np.stack((start[kept], end[kept]), axis=1))
-        ),
+        b=np.column_stack((np.append(0 * loops, start[kept]), np.append(0 * loops - 1, end[kept]))),
         b_forward=np.concatenate((np.ones(count, dtype=bool), forward)),
     )

@@ -203,11 +203,10 @@ def _solve(
     state: _CutState, index: int, states: list[_CutState], solver: str, limits: Limits | None
 ) -> None:
     """Find the smallest set left on a cut, unless another cut has one that comes before it."""
-    known = [(each.result.robots, k) for k, each in enumerate(states) if each.result is not None]
-    better = None
-    if known:
-        robots, first = min(known)
-        better = robots + (index < first)
+    known = (
+        each.result.robots + (index < k) for k, each in enumerate(states) if each.result is not None
+    )
+    better = min(known, default=None)
     result = minimal_supports(
         state.cable,
         state.asked,
