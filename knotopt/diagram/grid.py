@@ -7,6 +7,7 @@ and links in an open book I", doi:10.1016/0166-8641(94)00087-J.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -147,19 +148,17 @@ class GridDiagram:
         """
         pairs = [_mark(position, mark) for position, mark in enumerate(marks, 1)]
         _check_two_per_line(pairs)
-        rows_of: dict[int, list[int]] = {}
-        columns_of: dict[int, list[int]] = {}
-        for c, r in sorted(pairs):
-            rows_of.setdefault(c, []).append(r)
-            columns_of.setdefault(r, []).append(c)
-        minus, plus = [0] * len(rows_of), [0] * len(rows_of)
-        for first in rows_of:
-            column, row = first, rows_of[first][0]
+        rows, columns = Counter[int](), Counter[int]()  # of a line's two marks, summed
+        for c, r in pairs:
+            rows[c] += r
+            columns[r] += c
+        minus, plus = [0] * len(rows), [0] * len(rows)
+        for start in sorted(pairs):
+            column, row = start
             while not minus[column - 1]:
                 minus[column - 1] = row
-                row = sum(rows_of[column]) - row
-                plus[column - 1] = row
-                column = sum(columns_of[row]) - column
+                row = plus[column - 1] = rows[column] - row
+                column = columns[row] - column
         return cls(tuple(minus), tuple(plus))
 
     @property
@@ -184,15 +183,15 @@ class GridDiagram:
     def traversal(self) -> tuple[Mark, ...]:
         """The closed path in direction "+": 2N turning points, the first step along a column."""
         column, row = self.marks[0]
-        columns_of: dict[int, list[int]] = {}
+        columns = Counter[int]()  # of a row's two marks, summed
         for c, r in self.marks:
-            columns_of.setdefault(r, []).append(c)
+            columns[r] += c
         path = []
         for _ in range(self.size):
             path.append((column, row))
             row = self.minus[column - 1] + self.plus[column - 1] - row
             path.append((column, row))
-            column = sum(columns_of[row]) - column
+            column = columns[row] - column
         return tuple(path)
 
     @cached_property

@@ -134,9 +134,7 @@ def sets_in_order(
         raise RequirementError("sets come in order of their robots: not with a largest number")
     passed = excluded or {}
     states = [
-        _CutState(
-            Cable(diagram, cut), replace(asked, excluded=(*asked.excluded, *passed.get(cut, ())))
-        )
+        _CutState(Cable(diagram, cut), _without(asked, passed.get(cut, ())))
         for cut in (crossing_free_cuts(diagram) if cuts is None else cuts)
     ]
     if not states:
@@ -195,8 +193,12 @@ class _CutState:
         return CutOutcome(cut, None, self.bound, Status.UNKNOWN)
 
     def exclude(self, supports: Supports) -> None:
-        self.asked = replace(self.asked, excluded=(*self.asked.excluded, supports))
+        self.asked = _without(self.asked, [supports])
         self.answer = None
+
+
+def _without(asked: Requirements, sets: Sequence[Supports]) -> Requirements:
+    return replace(asked, excluded=(*asked.excluded, *sets))
 
 
 def _solve(
@@ -220,12 +222,10 @@ def _solve(
         raise KeyboardInterrupt
     state.answer = result
     state.bound = max(state.bound, result.solution.bound or 0)
-    if result.found:
-        return
     if result.solution.status is Status.INFEASIBLE and better is not None:
         state.bound = max(state.bound, better)
     else:
-        state.waits = False
+        state.waits = result.found
 
 
 def _nothing_left(

@@ -103,9 +103,8 @@ class Regions:
         """Which turning points lie on the boundaries of the given regions, shape (len, n)."""
         times = self.cable.times
         a, b = self.boundaries.a[regions, :, None], self.boundaries.b[regions, :, None]
-        on: BoolArray = ((a[:, 0] <= times) & (times <= a[:, 1])) | (
-            (b[:, 0] <= times) & (times <= b[:, 1])
-        )
+        on: BoolArray = (a[:, 0] <= times) & (times <= a[:, 1])
+        on |= (b[:, 0] <= times) & (times <= b[:, 1])
         return on
 
     @cached_property

@@ -122,11 +122,8 @@ def _groups(seen: Projection, contacts: list[Contact]) -> list[list[Contact]]:
 def _pairs_of(contact: Contact, vertices: int) -> list[Pair]:
     """The pairs of segments whose crossing can change at a contact."""
     vertex, segment = contact
-    return [
-        (min(own, segment), max(own, segment))
-        for own in (vertex - 1, vertex)
-        if 0 <= own < vertices - 1
-    ]
+    own = range(max(vertex - 1, 0), min(vertex + 1, vertices - 1))
+    return [(min(k, segment), max(k, segment)) for k in own]
 
 
 def _runs_on(seen: Projection, contact: Contact) -> bool:

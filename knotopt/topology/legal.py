@@ -117,11 +117,11 @@ def refusal(state: RopeState, action: Action, rule: R2Rule | str = R2Rule.PAPER)
     """Why the state does not allow the action; None if it does."""
     rule = R2Rule(rule)
     last = len(state.code)
-    bits, segments = _numbers(action)
-    for name, bit in bits.items():
+    for name in ("left", "over_first", "sign"):
+        bit = getattr(action, name, 1)  # R1, C and R2 have two or one of them
         if bit not in {1, -1}:
             return f"{name} is {bit}, not +1 or -1"
-    for segment in segments:
+    for segment in (action.idx,) if isinstance(action, R1) else (action.over, action.under):
         if not 0 <= segment <= last:
             return f"there is no segment {segment}, only 0 to {last}"
     match action:
@@ -130,17 +130,6 @@ def refusal(state: RopeState, action: Action, rule: R2Rule | str = R2Rule.PAPER)
         case R2():
             return _refuse_r2(state.code, action, rule)
     return None
-
-
-def _numbers(action: Action) -> tuple[dict[str, int], tuple[int, ...]]:
-    """The two-valued parameters of an action, and its segments."""
-    match action:
-        case R1(idx, left, sign):
-            return {"left": left, "sign": sign}, (idx,)
-        case C(over, under, sign):
-            return {"sign": sign}, (over, under)
-        case R2(over, under, left, over_first):
-            return {"left": left, "over_first": over_first}, (over, under)
 
 
 def _refuse_c(code: Code, action: C) -> str | None:

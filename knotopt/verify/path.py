@@ -305,16 +305,14 @@ class _Measured:
             )
             tree = cKDTree(self.samples[edge[::2], :2])
             ends = [t for t in visited if cells[t] in boundary]
-            strands = set()
-            for point in path:
-                time = time_of[point]
-                if point in region.interior and time > min(region.walk):
-                    next_end = bisect(ends, time)
-                    after = ends[next_end] if next_end < len(ends) else None
-                    strands.add((ends[next_end - 1], after))
-            for before, after in strands:
-                end = self.along[-1] if after is None else at[after]
-                inside = self._between(at[before], end)
+            strands = {
+                bisect(ends, time_of[point])
+                for point in path
+                if point in region.interior and time_of[point] > min(region.walk)
+            }
+            for after in strands:
+                end = at[ends[after]] if after < len(ends) else self.along[-1]
+                inside = self._between(at[ends[after - 1]], end)
                 room = float(tree.query(self.samples[inside[::2], :2])[0].max())
                 if room < least:
                     least, narrowest = room, region.name
@@ -328,7 +326,6 @@ class _Measured:
 
 def _stretches(walk: Sequence[int]) -> list[tuple[int, int]]:
     """The runs of consecutive times in a walk round a boundary."""
-    times = sorted(walk)
-    starts = [t for k, t in enumerate(times) if k == 0 or times[k - 1] != t - 1]
-    ends = [t for k, t in enumerate(times) if k + 1 == len(times) or times[k + 1] != t + 1]
-    return list(zip(starts, ends, strict=True))
+    times = np.unique(walk)
+    runs = np.split(times, np.flatnonzero(np.diff(times) > 1) + 1)
+    return [(int(run[0]), int(run[-1])) for run in runs]

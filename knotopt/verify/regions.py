@@ -78,15 +78,12 @@ def _define(path: tuple[Cell, ...], size: int) -> tuple[DefinedRegion, ...]:
     regions = []
     for kind, apexes, walk in (*loops, *pockets):
         interior = enclosed({cells[t] for t in walk}, size)
-        threaded_by = next(
-            (
-                k
-                for k, point in enumerate(path, 1)
-                if point in interior and visits[point][0] > min(walk)
-            ),
-            None,
+        threading = (
+            k
+            for k, point in enumerate(path, 1)
+            if point in interior and visits[point][0] > min(walk)
         )
-        regions.append(DefinedRegion(kind, apexes, walk, interior, threaded_by))
+        regions.append(DefinedRegion(kind, apexes, walk, interior, next(threading, None)))
     return tuple(regions)
 
 
