@@ -50,6 +50,13 @@ class Boundaries:
         pocket: BoolArray = self.b[:, 1] >= 0
         return pocket
 
+    def contain(self, region: IntArray | slice, times: IntArray) -> BoolArray:
+        """Which of T times lie on the boundaries of the given regions, shape (len, T)."""
+        a, b = self.a[region, :, None], self.b[region, :, None]
+        on: BoolArray = (a[:, 0] <= times) & (times <= a[:, 1])
+        on |= (b[:, 0] <= times) & (times <= b[:, 1])
+        return on
+
     def position(self, region: IntArray, time: IntArray) -> IntArray:
         """Distance walked round the boundary from its start to the given times [grid steps].
 

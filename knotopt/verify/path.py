@@ -174,10 +174,9 @@ def radii(points: FloatArray) -> FloatArray:
     a, b = np.diff(points, axis=0)[:-1], np.diff(points, axis=0)[1:]
     across = np.linalg.norm(a + b, axis=1)
     area = np.linalg.norm(np.cross(a, b), axis=1)
+    sides = np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1) * across
     with np.errstate(divide="ignore"):
-        found: FloatArray = (
-            np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1) * across / (2 * area)
-        )
+        found: FloatArray = sides / (2 * area)
     return found
 
 
@@ -276,11 +275,8 @@ class _Measured:
             for b in (after_j - 1, after_j):
                 known = (a >= 0) & (a < len(at)) & (b >= 0) & (b < len(at))
                 p, q = np.clip(a, 0, len(at) - 1), np.clip(b, 0, len(at) - 1)
-                through = (
-                    np.abs(self.along[i] - at[p])
-                    + self.between[which[p], which[q]]
-                    + np.abs(self.along[j] - at[q])
-                )
+                through = np.abs(self.along[i] - at[p]) + self.between[which[p], which[q]]
+                through += np.abs(self.along[j] - at[q])
                 way = np.where(known, np.minimum(way, through), way)
         return way
 
@@ -300,9 +296,8 @@ class _Measured:
             if region.threaded_by is None:
                 continue
             boundary = {cells[time] for time in region.walk}
-            edge = np.concatenate(
-                [self._between(at[low], at[high]) for low, high in _stretches(region.walk)]
-            )
+            stretches = [(at[low], at[high]) for low, high in _stretches(region.walk)]
+            edge = np.concatenate([self._between(*stretch) for stretch in stretches])
             tree = cKDTree(self.samples[edge[::2], :2])
             ends = [t for t in visited if cells[t] in boundary]
             strands = {

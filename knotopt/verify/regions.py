@@ -110,11 +110,8 @@ def _pockets(cells: Sequence[Cell], crossings: Sequence[list[int]]) -> Iterator[
                 continue
             later = range(low, high + 1)
             back = later if other[end] == low else reversed(later)
-            yield (
-                "pocket",
-                frozenset([cells[start], cells[end]]),
-                (*range(start, end + 1), *back),
-            )
+            apexes = frozenset([cells[start], cells[end]])
+            yield "pocket", apexes, (*range(start, end + 1), *back)
 
 
 def enclosed(boundary: set[Cell], size: int) -> frozenset[Cell]:
