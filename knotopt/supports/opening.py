@@ -107,11 +107,9 @@ def compile_opening(
 
 def _area(regions: Regions, active: IntArray) -> list[tuple[tuple[int, ...], int, str]]:
     rows: dict[tuple[tuple[int, ...], int], int] = {}
-    on = regions.on_boundary(active)
-    for index, mask in zip(active.tolist(), on, strict=True):
+    for index, mask in zip(active.tolist(), regions.on_boundary(active), strict=True):
         points = tuple((np.flatnonzero(mask) + 1).tolist())
-        pocket = bool(regions.boundaries.is_pocket[index])
-        rows.setdefault((points, 1 if pocket else 2), index)
+        rows.setdefault((points, 1 if regions.boundaries.is_pocket[index] else 2), index)
     return [(points, count, regions.name(index)) for (points, count), index in rows.items()]
 
 

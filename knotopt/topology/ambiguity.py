@@ -89,8 +89,9 @@ def ambiguities(
                     level.add(crossing)
                 clear |= pairs
             else:
-                vertex, segment = group[0]
-                found.append(_at(seen, reason, _named(vertex, segment), seen.flat[vertex]))
+                vertex, segment = group[0]  # not named as neighbours, if there is a choice
+                named = (vertex - 1, segment) if 0 < vertex < segment else (vertex, segment)
+                found.append(_at(seen, reason, named, seen.flat[vertex]))
                 clear -= pairs
                 level.difference_update(_crossings_among(number, pairs))
         meeting = np.array(sorted(clear), dtype=np.intp).reshape(-1, 2)
@@ -230,13 +231,6 @@ def _triple_points(seen: Projection, meeting: IntArray, tolerance: float) -> Ite
         normals = np.stack((-steps[t, :, 1], steps[t, :, 0]), axis=1)
         place = origin[t] + np.linalg.lstsq(normals, offsets[t])[0]
         yield _at(seen, Reason.TRIPLE, triples[t].tolist(), place)
-
-
-def _named(vertex: int, segment: int) -> Pair:
-    """The two segments to name at a contact: not neighbours, if there is a choice."""
-    if vertex < segment:
-        return max(vertex - 1, 0), segment
-    return segment, vertex
 
 
 def _at(seen: Projection, reason: Reason, segments: Iterable[int], place: FloatArray) -> Ambiguity:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from enum import StrEnum
+from itertools import product
 
 from knotopt.topology.actions import R1, R2, Action, C, RopeActionError, perform
 from knotopt.topology.faces import Code, dart_faces
@@ -54,10 +55,7 @@ def legal_actions(state: RopeState, rule: R2Rule | str = R2Rule.PAPER) -> Iterat
     """Every legal action, as `successors` orders them."""
     rule = R2Rule(rule)
     last = len(state.code)
-    for idx in range(last + 1):
-        for left in (-1, 1):
-            yield R1(idx, left, -1)
-            yield R1(idx, left, 1)
+    yield from (R1(*label) for label in product(range(last + 1), (-1, 1), (-1, 1)))
     face = dart_faces(state.code)
     borders: list[list[int]] = [[] for _ in range(last // 2 + 1)]
     for dart, number in enumerate(face):
@@ -71,9 +69,8 @@ def legal_actions(state: RopeState, rule: R2Rule | str = R2Rule.PAPER) -> Iterat
                 yield C(segment, end, -sign)
     if rule is not R2Rule.PUBLIC or face[0] == face[-1]:
         for border in borders:
-            for top in border:
-                for below in border:
-                    yield from _fingers(top, below, rule)
+            for top, below in product(border, repeat=2):
+                yield from _fingers(top, below, rule)
 
 
 def _fingers(top: int, below: int, rule: R2Rule) -> Iterator[R2]:

@@ -17,10 +17,10 @@ move together.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import Any
 
 from knotopt.errors import CertificateError
@@ -32,7 +32,7 @@ from knotopt.verify.proofs import by_counting, by_refutation
 from knotopt.verify.regions import Cell, DefinedRegion, define_regions, lay
 
 Span = tuple[int, int]
-Corner = tuple[list[Point], list[tuple[Point, Point]]]  # closed curve it sweeps, new edges
+Corner = tuple[Sequence[Point], Sequence[tuple[Point, Point]]]  # closed curve it sweeps, new edges
 
 
 @dataclass(frozen=True)
@@ -164,13 +164,12 @@ def _examine(
     """Smallest squared opening about one threading point (0 if it is lost), and what is wrong."""
     distances: list[Fraction] = []
     reasons: list[str] = []
-    for interval in intervals:
-        for start, end in pairwise(interval.robots):
-            stretch = taut.grid(start, end)
-            distances.append(squared_distance(taut.q, stretch[0], stretch[-1]))
-            if distances[-1] > 0 and winding_number(stretch, taut.q) != 0:
-                reasons.append("a span on the boundary cuts it off")
-    corners = _corners(taut, intervals, list(pairwise(taut.robots)))
+    spans = list(pairwise(taut.robots))
+    for stretch, chord in _within(taut, intervals, spans):
+        distances += (squared_distance(taut.q, *edge) for edge in chord)
+        if distances[-1] > 0 and winding_number(stretch, taut.q) != 0:
+            reasons.append("a span on the boundary cuts it off")
+    corners = _corners(taut, intervals, spans)
     if len(intervals) == 2 and not any(interval.robots for interval in intervals):
         reasons.append("no robot on either side of a pocket")
     elif corners is None:
@@ -183,6 +182,15 @@ def _examine(
     if not reasons and smallest < openness**2:
         reasons.append(f"a span passes at {float(smallest) ** 0.5:.3f}")
     return smallest, reasons
+
+
+def _within(taut: _Taut, intervals: Sequence[_Interval], laid: Sequence[Span]) -> Iterator[Corner]:
+    """The spans on the boundary, each as a chord with the piece of the grid that it cuts short."""
+    for interval in intervals:
+        for start, end in laid:
+            if interval.low < start < end < interval.high:
+                stretch = taut.grid(start, end)
+                yield stretch, [(stretch[0], stretch[-1])]
 
 
 def _corners(
@@ -307,27 +315,21 @@ class SpanRules:
         robots = sorted({time for span in laid for time in span})
         for region, q, entry in self._threads:
             taut = _Taut(self._cells, robots, q, entry, max(region.walk))
-            if self._lost(taut, _intervals(region, robots), laid):
+            intervals = _intervals(region, robots)
+            corners = _corners(taut, intervals, laid)
+            if corners is None:
+                return True
+            curves = chain(_within(taut, intervals, laid), corners)
+            if any(self._passes(taut.q, *curve) for curve in curves):
                 return True
         return False
 
-    def _lost(self, taut: _Taut, intervals: Sequence[_Interval], laid: Sequence[Span]) -> bool:
-        for interval in intervals:
-            for start, end in laid:
-                if interval.low < start < end < interval.high:
-                    stretch = taut.grid(start, end)
-                    if self._passes(taut, stretch, [(stretch[0], stretch[-1])]):
-                        return True
-        corners = _corners(taut, intervals, laid)
-        return corners is None or any(self._passes(taut, *corner) for corner in corners)
-
     def _passes(
-        self, taut: _Taut, curve: Sequence[Point], edges: Sequence[tuple[Point, Point]]
+        self, q: Point, curve: Sequence[Point], edges: Sequence[tuple[Point, Point]]
     ) -> bool:
         """Whether an edge comes too close to the threading point, or the curve winds round it."""
-        if any(squared_distance(taut.q, *edge) < self._openness**2 for edge in edges):
-            return True
-        return winding_number(curve, taut.q) != 0
+        near = any(squared_distance(q, *edge) < self._openness**2 for edge in edges)
+        return near or winding_number(curve, q) != 0
 
 
 def _clauses(claim: Claim, content: Mapping[str, Any]) -> set[frozenset[int]]:
