@@ -240,10 +240,8 @@ def _is_integer(value: Any) -> bool:
 
 
 def _where(kind: str, places: Sequence[int]) -> str:
-    if not places:
-        return ""
     plural = "s" if len(places) > 1 else ""
-    return f" ({kind}{plural} {', '.join(map(str, places))})"
+    return f" ({kind}{plural} {', '.join(map(str, places))})" if places else ""
 
 
 def _mark(position: int, mark: Any) -> Mark:
@@ -265,8 +263,7 @@ def _check_two_per_line(marks: Sequence[Mark], size: int | None = None) -> None:
         if mark in seen:
             raise GridError(f"mark [{mark[0]}, {mark[1]}] occurs twice")
         seen.add(mark)
-    if size is None:
-        size = max(max(mark) for mark in marks)
+    size = size or max(map(max, marks))
     near = min(marks, key=min)
     if min(near) < 1:
         raise GridError(

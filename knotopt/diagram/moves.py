@@ -215,10 +215,7 @@ def destabilise_row(diagram: GridDiagram, row: int) -> GridDiagram:
     minus, plus = list(diagram.minus), list(diagram.plus)
     minus[into] = minus[out]
     del minus[out], plus[out]
-    return GridDiagram(
-        tuple(r - (r > row) for r in minus),
-        tuple(r - (r > row) for r in plus),
-    )
+    return GridDiagram(*(tuple(r - (r > row) for r in rows) for rows in (minus, plus)))
 
 
 def can_destabilise_column(diagram: GridDiagram, column: int) -> bool:

@@ -63,9 +63,8 @@ def _reach(regions: Regions, requirements: Requirements) -> list[ReachTarget]:
     first, second = cable.crossings.first.tolist(), cable.crossings.second.tolist()
     partner = dict(zip(first + second, second + first, strict=True))
     targets = {}
-    for region, q, entry in zip(
-        threading.region.tolist(), threading.point.tolist(), threading.entry.tolist(), strict=True
-    ):
+    columns = (threading.region, threading.point, threading.entry)
+    for region, q, entry in zip(*(column.tolist() for column in columns), strict=True):
         crossed = int(np.searchsorted(cable.times, partner[entry]))  # first point after it
         entered = int(np.searchsorted(cable.times, entry))
         options = []
