@@ -155,12 +155,8 @@ class Instance:
 
     def at_most(self, bound: int) -> Row:
         """The row that says: at most `bound` decision variables are 1."""
-        return Row(
-            tuple(range(-1, -self.decisions - 1, -1)),
-            self.decisions - bound,
-            "at most",
-            f"at most {bound}",
-        )
+        literals = tuple(range(-1, -self.decisions - 1, -1))
+        return Row(literals, self.decisions - bound, "at most", f"at most {bound}")
 
     def packing_bound(self) -> int:
         """A lower bound of how many decisions are 1, by rows that share no variable.
@@ -186,15 +182,7 @@ class Instance:
             "objective": self.objective,
             "definitions": self.definitions,
             "start": self.start,
-            "rows": [
-                {
-                    "literals": row.literals,
-                    "at_least": row.at_least,
-                    "family": row.family,
-                    "origin": row.origin,
-                }
-                for row in self.rows
-            ],
+            "rows": [vars(row) for row in self.rows],
         }
         return json.dumps(content, separators=(",", ":"))
 

@@ -183,10 +183,8 @@ def _interrupts_held_back() -> Iterator[None]:
 def _box(program: PathProgram, layout: Layout) -> tuple[FloatArray, FloatArray]:
     """Bounds of the free variables: as far as they may reach, and between floor and ceiling."""
     low, high = layout.start - program.reach, layout.start + program.reach
-    low[2 * layout.vertices :], high[2 * layout.vertices :] = (
-        program.bounds.floor,
-        program.bounds.ceiling,
-    )
+    low[2 * layout.vertices :] = program.bounds.floor
+    high[2 * layout.vertices :] = program.bounds.ceiling
     return low[~layout.is_fixed], high[~layout.is_fixed]
 
 

@@ -80,23 +80,13 @@ def objective_terms(program: PathProgram, layout: Layout) -> Objective:
 def constraint_terms(program: PathProgram, layout: Layout) -> list[Constraint]:
     bounds = program.bounds
     steep = np.stack((program.steep, program.steep + 1), axis=1)
+    safe_areas = np.minimum(SAFE_AREA, SHRINK * program.doubled_areas)
+    clearances = program.strand_distances**2
     families: list[tuple[str, Element, IntArray, float, FloatArray | float]] = [
         # same diagram: every triangle keeps a positive area
-        (
-            "diagram",
-            AREA,
-            layout.plane(program.triangles),
-            0.0,
-            np.minimum(SAFE_AREA, SHRINK * program.doubled_areas),
-        ),
+        ("diagram", AREA, layout.plane(program.triangles), 0.0, safe_areas),
         # clearance: strands stay apart, and leave crossings and robots at an angle
-        (
-            "clearance",
-            DISTANCE,
-            layout.plane(program.strand_pairs),
-            0.0,
-            program.strand_distances**2,
-        ),
+        ("clearance", DISTANCE, layout.plane(program.strand_pairs), 0.0, clearances),
         ("angle", CORNER, layout.plane(program.corners), math.tan(bounds.angle), 0.0),
         ("spread", SPREAD, layout.plane(program.arcs), 0.0, bounds.clearance**2),
         ("turn", TURN, layout.plane(program.turns), math.cos(bounds.angle), 0.0),

@@ -89,8 +89,7 @@ def greedy_schedule(
             gain = 2 * max(rate, 0.0) * abs(nodes[there] - nodes[here])
             b[there] = min(b[there], b[here] + 0.8 * gain)
     pace = np.sqrt(np.maximum(b, CRAWL * np.median(cap)))
-    times = np.concatenate(([0.0], np.cumsum(2 * np.diff(nodes) / (pace[1:] + pace[:-1]))))
-    return Schedule(nodes, times, pace, False, "greedy", 0)
+    return Schedule(nodes, _times(nodes, pace), pace, False, "greedy", 0)
 
 
 def fastest_schedule(
@@ -131,7 +130,7 @@ def fastest_schedule(
     # What tolerances leave is taken out by flying slower throughout.
     worst = max(float(asked.max()) / acceleration, 1.0)
     pace = np.sqrt(b / worst)
-    times = np.concatenate(([0.0], np.cumsum(2 * np.diff(nodes) / (pace[1:] + pace[:-1]))))
+    times = _times(nodes, pace)
     is_optimal = status == "Solve_Succeeded" and worst < 1 + 1e2 * TOLERANCE
     if not is_optimal and greedy.duration < times[-1]:
         return replace(greedy, raw_status=status, iterations=iterations)
@@ -144,12 +143,11 @@ def _accelerations(
     """The larger of the accelerations before and after each node, shape (K, R)."""
     rate = np.diff(b) / np.diff(nodes) / 2
     sides = (np.concatenate((rate[:1], rate)), np.concatenate((rate, rate[-1:])))
-    found: FloatArray = np.maximum(
-        *(
-            np.linalg.norm(second * b[:, None, None] + first * side[:, None, None], axis=2)
-            for side in sides
-        )
+    both = (
+        np.linalg.norm(second * b[:, None, None] + first * side[:, None, None], axis=2)
+        for side in sides
     )
+    found: FloatArray = np.maximum(*both)
     return found
 
 
@@ -176,18 +174,10 @@ def _solve(
         rows.append(ca.sum2(pull**2) / acceleration**2)
     root = ca.sqrt(b)
     time = ca.sum1(2 * ca.DM(step) / (root[1:] + root[:-1]))
-    options: dict[str, int | float | str] = {
-        "print_level": 0,
-        "sb": "yes",
-        "max_iter": 200,
-        "tol": TOLERANCE,
-    }
-    solver = ca.nlpsol(
-        "schedule",
-        "ipopt",
-        {"x": b, "f": time, "g": ca.vertcat(*rows)},
-        {"print_time": False, "ipopt": options},
-    )
+    options: dict[str, int | float | str] = {"print_level": 0, "sb": "yes", "max_iter": 200}
+    options["tol"] = TOLERANCE
+    program = {"x": b, "f": time, "g": ca.vertcat(*rows)}
+    solver = ca.nlpsol("schedule", "ipopt", program, {"print_time": False, "ipopt": options})
     answer = solver(x0=guess, lbx=low, ubx=high, lbg=-np.inf, ubg=1.0)
     stats = solver.stats()
     found = np.clip(np.array(answer["x"]).ravel(), low, high)
@@ -211,5 +201,9 @@ def steady_schedule(
     left = length - gone
     rates = np.sqrt(2 * rate * np.minimum(np.minimum(gone, left), ramp))
     rates = np.maximum(rates, np.sqrt(CRAWL) * pace)
-    times = np.concatenate(([0.0], np.cumsum(2 * np.diff(nodes) / (rates[1:] + rates[:-1]))))
-    return Schedule(nodes, times, rates, True, "steady", 0)
+    return Schedule(nodes, _times(nodes, rates), rates, True, "steady", 0)
+
+
+def _times(nodes: FloatArray, pace: FloatArray) -> FloatArray:
+    """When a path is at its nodes, from rates that change evenly between them."""
+    return np.concatenate(([0.0], np.cumsum(2 * np.diff(nodes) / (pace[1:] + pace[:-1]))))

@@ -24,12 +24,7 @@ from formulations.solution import (
     checked,
 )
 
-_STATUS = {
-    "OPTIMAL": Status.OPTIMAL,
-    "FEASIBLE": Status.FEASIBLE,
-    "INFEASIBLE": Status.INFEASIBLE,
-    "UNKNOWN": Status.UNKNOWN,
-}
+_STATUS = {s.name: s for s in Status if s is not Status.ERROR}  # CP-SAT's words are ours
 SMALL = 40  # variables
 
 
@@ -62,20 +57,16 @@ class CpSat:
         build_seconds = time.perf_counter() - began
         began = time.perf_counter()
         status = _search(solver, model, first)
-        answer = Answer(
-            _STATUS.get(status, Status.ERROR),
-            status,
-            solve_seconds=time.perf_counter() - began,
-        )
+        seconds = time.perf_counter() - began
+        answer = Answer(_STATUS.get(status, Status.ERROR), status, solve_seconds=seconds)
         if answer.status in (Status.OPTIMAL, Status.FEASIBLE):
             answer.values = list(solver.response_proto.solution)
         if answer.status is not Status.ERROR:
             answer.bound = solver.best_objective_bound
         if first is not None:
             answer.start_accepted = "hint" in first.origin and not instance.violated(start)
-        return checked(
-            answer, instance, limits, build_seconds=build_seconds, solver=self._version()
-        )
+        version = f"{self.name} (ortools {importlib.metadata.version('ortools')})"
+        return checked(answer, instance, limits, build_seconds=build_seconds, solver=version)
 
     def enumerate(self, instance: Instance, limits: Limits, count: int) -> Enumeration:
         """Every set that satisfies the rows, `count` at most; Ctrl-C ends with those so far."""
@@ -87,9 +78,6 @@ class CpSat:
         every = _All(instance.decisions, count)
         complete = _search(solver, _model(instance), every) in ("OPTIMAL", "INFEASIBLE")
         return Enumeration(tuple(sorted(every.sets)[:count]), complete and len(every.sets) <= count)
-
-    def _version(self) -> str:
-        return f"{self.name} (ortools {importlib.metadata.version('ortools')})"
 
 
 class _First(cp_model.CpSolverSolutionCallback):

@@ -56,11 +56,8 @@ class _CvxpyBackend(ABC):
             raw = self._run(chain, problem, data, limits)
         answer = self._answer(raw)
         answer.solve_seconds = time.perf_counter() - began
-        versions = ", ".join(
-            f"{package} {importlib.metadata.version(package)}"
-            for package in (self.package, "cvxpy")
-        )
-        solver = f"{self.name} ({versions})"
+        used, cvxpy = map(importlib.metadata.version, (self.package, "cvxpy"))
+        solver = f"{self.name} ({self.package} {used}, cvxpy {cvxpy})"
         return checked(answer, instance, limits, build_seconds=build_seconds, solver=solver)
 
     @abstractmethod

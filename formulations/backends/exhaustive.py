@@ -59,13 +59,8 @@ class Exhaustive:
         except KeyboardInterrupt:
             answer = Answer(Status.UNKNOWN, f"interrupted at size {size}", bound=bound)
         answer.solve_seconds = time.perf_counter() - began
-        return checked(
-            answer,
-            instance,
-            limits,
-            build_seconds=build_seconds,
-            solver=f"{self.name} (numpy {np.__version__})",
-        )
+        solver = f"{self.name} (numpy {np.__version__})"
+        return checked(answer, instance, limits, build_seconds=build_seconds, solver=solver)
 
     def enumerate(self, instance: Instance, limits: Limits, count: int) -> Enumeration:
         """Every set that satisfies the rows, `count` at most."""

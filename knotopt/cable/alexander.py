@@ -11,7 +11,9 @@ binary digits (Kronecker substitution); no rounding and no interpolation take pa
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
+from itertools import chain
 
 from knotopt.cable.cable import Cable
 
@@ -117,10 +119,7 @@ def _determinant(rows: list[Row]) -> int:
     """
     rows = [dict(row) for row in rows]
     while True:
-        users: dict[int, int] = {}
-        for row in rows:
-            for column in row:
-                users[column] = users.get(column, 0) + 1
+        users = Counter(chain.from_iterable(rows))
         pivots = [
             ((len(row) - 1) * (users[column] - 1), i, column)
             for i, row in enumerate(rows)
@@ -161,11 +160,9 @@ def _digits(value: int, bits: int) -> list[int]:
     """Digits of a signed number in base 2 ** bits, each in [-2 ** (bits-1), 2 ** (bits-1))."""
     digits = []
     while value:
-        digit = value & ((1 << bits) - 1)
-        if digit >> (bits - 1):
-            digit -= 1 << bits
-        digits.append(digit)
-        value = (value - digit) >> bits
+        half = 1 << (bits - 1)
+        digits.append((value + half) % (2 * half) - half)
+        value = (value - digits[-1]) >> bits
     return digits
 
 

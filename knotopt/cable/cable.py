@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -72,15 +73,8 @@ class Crossings:
         return len(self.first)
 
     def __getitem__(self, index: int) -> Crossing:
-        column, row = self.cell[index].tolist()
-        return Crossing(
-            column,
-            row,
-            int(self.first[index]),
-            int(self.second[index]),
-            bool(self.first_over[index]),
-            int(self.sign[index]),
-        )
+        others = (self.first, self.second, self.first_over, self.sign)
+        return Crossing(*self.cell[index].tolist(), *(values[index].item() for values in others))
 
     def __iter__(self) -> Iterator[Crossing]:
         return (self[index] for index in range(len(self)))
@@ -123,8 +117,7 @@ class Cable:
         object.__setattr__(self, "cut", cut)
         if not cut.is_outer:
             line = diagram.crossing_cells.take(cut.index - 1, axis=int(cut.axis == "row"))
-            if line.any():
-                count = int(line.sum())
+            if count := int(line.sum()):
                 free = ", ".join(str(free) for free in crossing_free_cuts(diagram))
                 raise CutError(
                     f"cut {cut}: the segment in {cut.axis} {cut.index} carries "
@@ -173,17 +166,13 @@ class Cable:
     def crossings(self) -> Crossings:
         """Every crossing with both visits, ordered by first visit."""
         cell = np.argwhere(self.diagram.crossing_cells) + 1
-        start, times, directions = (
-            self.points[:-1],
-            self.times,
-            np.sign(np.diff(self.points, axis=0)),
-        )
+        start, times = self.points[:-1], self.times
+        directions = np.sign(np.diff(self.points, axis=0))
         # Each column and each row that carries a crossing holds exactly one segment of the path.
         segment = np.zeros((2, self.diagram.size + 1), dtype=np.int64)
-        vertical = np.flatnonzero(directions[:, 0] == 0)
-        horizontal = np.flatnonzero(directions[:, 1] == 0)
-        segment[0, start[vertical, 0]] = vertical
-        segment[1, start[horizontal, 1]] = horizontal
+        for axis in (0, 1):
+            along = np.flatnonzero(directions[:, axis] == 0)
+            segment[axis, start[along, axis]] = along
         over, under = segment[0, cell[:, 0]], segment[1, cell[:, 1]]
         over_time = times[over] + np.abs(cell[:, 1] - start[over, 1])
         under_time = times[under] + np.abs(cell[:, 0] - start[under, 0])
@@ -217,13 +206,10 @@ class Cable:
         corners = np.searchsorted(self.times, bounds, side="left").tolist()
         corners[-1] = len(self.path)
         return tuple(
-            Arc(
-                (ends[i], ends[i + 1]),
-                bounds[i],
-                bounds[i + 1],
-                tuple(range(corners[i] + 1, corners[i + 1] + 1)),
+            Arc(crossings, start, end, tuple(range(before + 1, after + 1)))
+            for crossings, (start, end), (before, after) in zip(
+                pairwise(ends), pairwise(bounds), pairwise(corners), strict=True
             )
-            for i in range(len(bounds) - 1)
         )
 
 

@@ -73,15 +73,10 @@ class Cut:
                 "or a column or row such as col3+ or row5-"
             )
         letter, line, number, sign = match.groups()
-        if letter:
-            axis = "column" if letter.upper() in "LR" else "row"
-            index = 1 if letter.upper() in "LB" else size
-        else:
-            axis = "column" if line.lower() == "col" else "row"
-            index = int(number)
-        return cls(
-            "column" if axis == "column" else "row", index, "+" if sign == "+" else "-", size
-        )
+        place = (letter or line).upper()
+        index = int(number) if number else 1 if place in "LB" else size
+        axis: Literal["column", "row"] = "column" if place in ("L", "R", "COL") else "row"
+        return cls(axis, index, "+" if sign == "+" else "-", size)
 
     @property
     def is_outer(self) -> bool:

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from knotopt.cable.cable import Cable
 
 
@@ -84,15 +86,7 @@ def dt_code(cable: Cable) -> tuple[int, ...]:
     (4, 6, 2)
     """
     _, index, over = cable.visits
-    labels: list[list[int]] = [[] for _ in cable.crossings]
-    for label, crossing in enumerate(index.tolist(), 1):
-        labels[crossing].append(label)
-    even_at = {min(pair, key=_is_even): max(pair, key=_is_even) for pair in labels}
-    return tuple(
-        -even_at[odd] if over[even_at[odd] - 1] else even_at[odd]
-        for odd in range(1, 2 * len(labels), 2)
-    )
-
-
-def _is_even(label: int) -> bool:
-    return label % 2 == 0
+    pairs = np.argsort(index, kind="stable").reshape(-1, 2) + 1  # of labels, one odd, one even
+    odd, even = np.where(pairs[:, :1] % 2 == 1, pairs, pairs[:, ::-1]).T
+    signed = np.where(over[even - 1], -even, even)
+    return tuple(signed[np.argsort(odd)].tolist())

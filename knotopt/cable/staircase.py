@@ -6,11 +6,10 @@ a robot; the reduced cable is a straight span that one strand winds around.
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal
-
-import numpy as np
 
 from knotopt.cable.cable import Cable
 
@@ -49,15 +48,10 @@ def find_staircases(cable: Cable, min_length: int = 3) -> tuple[Staircase, ...]:
     """
     at = {(c.column, c.row): i for i, c in enumerate(cable.crossings)}
     _, index, _ = cable.visits
-    joined: dict[frozenset[int], int] = {}
-    for pair in np.stack((index[:-1], index[1:]), axis=1).tolist():
-        joined[frozenset(pair)] = joined.get(frozenset(pair), 0) + 1
+    joined = Counter(map(frozenset, pairwise(index.tolist())))
     found = []
-    directions: tuple[tuple[int, Literal["rising", "falling"]], ...] = (
-        (1, "rising"),
-        (-1, "falling"),
-    )
-    for step, direction in directions:
+    directions: dict[int, Literal["rising", "falling"]] = {1: "rising", -1: "falling"}
+    for step, direction in directions.items():
         for column, row in sorted(at):
             if (column - 1, row - step) in at:
                 continue
@@ -65,6 +59,6 @@ def find_staircases(cable: Cable, min_length: int = 3) -> tuple[Staircase, ...]:
             while (column + len(run), row + step * len(run)) in at:
                 run.append(at[column + len(run), row + step * len(run)])
             if len(run) >= min_length:
-                twist = all(joined.get(frozenset(pair), 0) >= 2 for pair in pairwise(run))
+                twist = all(joined[frozenset(pair)] >= 2 for pair in pairwise(run))
                 found.append(Staircase(tuple(run), direction, twist))
     return tuple(sorted(found, key=lambda staircase: -len(staircase)))

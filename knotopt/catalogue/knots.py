@@ -48,26 +48,16 @@ class PrimeKnot:
 
     def to_json(self) -> dict[str, Any]:
         """The entry as a JSON object, as the catalogue's files hold it."""
-        return {
-            "name": self.name,
-            "crossing_number": self.crossing_number,
-            "arc_index": self.arc_index,
-            "alternating": self.alternating,
-            "determinant": self.determinant,
-            "signature": self.signature,
-            "alexander": list(self.alexander),
-            "grid": [list(mark) for mark in self.marks],
-        }
+        facts = {key: value for key, value in vars(self).items() if key != "marks"}
+        grid = [list(mark) for mark in self.marks]
+        return facts | {"alexander": list(self.alexander), "grid": grid}
 
     @classmethod
     def from_json(cls, entry: dict[str, Any]) -> PrimeKnot:
         """The inverse of `to_json`."""
-        facts = {key: value for key, value in entry.items() if key not in ("alexander", "grid")}
-        return cls(
-            alexander=tuple(entry["alexander"]),
-            marks=tuple((column, row) for column, row in entry["grid"]),
-            **facts,
-        )
+        facts = {key: value for key, value in entry.items() if key != "grid"}
+        facts["alexander"] = tuple(entry["alexander"])
+        return cls(**facts, marks=tuple((column, row) for column, row in entry["grid"]))
 
 
 @cache

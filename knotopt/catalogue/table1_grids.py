@@ -33,12 +33,6 @@ class Table1Grid:
 def table1_grids() -> tuple[Table1Grid, ...]:
     """The grids for the six rows of Table I, in the table's order, preferred ones first."""
     return tuple(
-        Table1Grid(
-            entry["row"],
-            entry["knot"],
-            entry["preferred"],
-            entry["robots_after_paper"],
-            tuple((column, row) for column, row in entry["grid"]),
-        )
+        Table1Grid(marks=tuple((column, row) for column, row in entry.pop("grid")), **entry)
         for entry in shipped_json("table1_grids.json")
     )

@@ -7,6 +7,7 @@ and links in an open book I", doi:10.1016/0166-8641(94)00087-J.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -147,20 +148,17 @@ class GridDiagram:
         """
         pairs = [_mark(position, mark) for position, mark in enumerate(marks, 1)]
         _check_two_per_line(pairs)
-        rows_of: dict[int, list[int]] = {}
-        columns_of: dict[int, list[int]] = {}
-        for c, r in sorted(pairs):
-            rows_of.setdefault(c, []).append(r)
-            columns_of.setdefault(r, []).append(c)
-        minus = [0] * len(rows_of)
-        plus = [0] * len(rows_of)
-        for first in rows_of:
-            column, row = first, rows_of[first][0]
+        rows, columns = Counter[int](), Counter[int]()  # of a line's two marks, summed
+        for c, r in pairs:
+            rows[c] += r
+            columns[r] += c
+        minus, plus = [0] * len(rows), [0] * len(rows)
+        for start in sorted(pairs):
+            column, row = start
             while not minus[column - 1]:
                 minus[column - 1] = row
-                row = sum(rows_of[column]) - row
-                plus[column - 1] = row
-                column = sum(columns_of[row]) - column
+                row = plus[column - 1] = rows[column] - row
+                column = columns[row] - column
         return cls(tuple(minus), tuple(plus))
 
     @property
@@ -185,15 +183,15 @@ class GridDiagram:
     def traversal(self) -> tuple[Mark, ...]:
         """The closed path in direction "+": 2N turning points, the first step along a column."""
         column, row = self.marks[0]
-        columns_of: dict[int, list[int]] = {}
+        columns = Counter[int]()  # of a row's two marks, summed
         for c, r in self.marks:
-            columns_of.setdefault(r, []).append(c)
+            columns[r] += c
         path = []
         for _ in range(self.size):
             path.append((column, row))
             row = self.minus[column - 1] + self.plus[column - 1] - row
             path.append((column, row))
-            column = sum(columns_of[row]) - column
+            column = columns[row] - column
         return tuple(path)
 
     @cached_property
@@ -242,10 +240,8 @@ def _is_integer(value: Any) -> bool:
 
 
 def _where(kind: str, places: Sequence[int]) -> str:
-    if not places:
-        return ""
     plural = "s" if len(places) > 1 else ""
-    return f" ({kind}{plural} {', '.join(map(str, places))})"
+    return f" ({kind}{plural} {', '.join(map(str, places))})" if places else ""
 
 
 def _mark(position: int, mark: Any) -> Mark:
@@ -267,8 +263,7 @@ def _check_two_per_line(marks: Sequence[Mark], size: int | None = None) -> None:
         if mark in seen:
             raise GridError(f"mark [{mark[0]}, {mark[1]}] occurs twice")
         seen.add(mark)
-    if size is None:
-        size = max(max(mark) for mark in marks)
+    size = size or max(map(max, marks))
     near = min(marks, key=min)
     if min(near) < 1:
         raise GridError(
@@ -299,14 +294,12 @@ def _check_two_per_line(marks: Sequence[Mark], size: int | None = None) -> None:
 
 
 def _check_one_component(minus: Sequence[int], plus: Sequence[int]) -> None:
-    column_of_minus = {row: c for c, row in enumerate(minus)}
-    unseen = set(range(len(minus)))
+    after = {row: plus[c] for c, row in enumerate(minus)}  # the row of a -1 to that of the next
     components = 0
-    while unseen:
+    while after:
         components += 1
-        column = next(iter(unseen))
-        while column in unseen:
-            unseen.remove(column)
-            column = column_of_minus[plus[column]]
+        row, following = after.popitem()
+        while following != row:
+            following = after.pop(following)
     if components != 1:
         raise GridError(f"this grid is a link of {components} components, a knot has 1")

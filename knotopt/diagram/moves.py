@@ -10,6 +10,8 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import Literal
 
+import numpy as np
+
 from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import MoveError
 
@@ -122,10 +124,7 @@ def commute_columns(diagram: GridDiagram, column: int) -> GridDiagram:
     >>> commute_columns(GridDiagram((1, 3, 2), (2, 1, 3)), 1)
     GridDiagram(minus=(3, 1, 2), plus=(1, 2, 3))
     """
-    if not can_commute_columns(diagram, column):
-        after = column % diagram.size + 1
-        raise MoveError(f"columns {column} and {after} do not commute: their marks interleave")
-    return _exchange(diagram, column)
+    return _commute(diagram, column, "columns")
 
 
 def commute_rows(diagram: GridDiagram, row: int) -> GridDiagram:
@@ -137,11 +136,7 @@ def commute_rows(diagram: GridDiagram, row: int) -> GridDiagram:
         The two rows' marks are interleaved.
     """
     _check_line(diagram, row, "row")
-    transposed = _transposed(diagram)
-    if not can_commute_columns(transposed, row):
-        after = row % diagram.size + 1
-        raise MoveError(f"rows {row} and {after} do not commute: their marks interleave")
-    return _transposed(_exchange(transposed, row))
+    return _transposed(_commute(_transposed(diagram), row, "rows"))
 
 
 def stabilise(diagram: GridDiagram, column: int, row: int, corner: Corner) -> GridDiagram:
@@ -220,10 +215,7 @@ def destabilise_row(diagram: GridDiagram, row: int) -> GridDiagram:
     minus, plus = list(diagram.minus), list(diagram.plus)
     minus[into] = minus[out]
     del minus[out], plus[out]
-    return GridDiagram(
-        tuple(r - (r > row) for r in minus),
-        tuple(r - (r > row) for r in plus),
-    )
+    return GridDiagram(*(tuple(r - (r > row) for r in rows) for rows in (minus, plus)))
 
 
 def can_destabilise_column(diagram: GridDiagram, column: int) -> bool:
@@ -252,21 +244,22 @@ def destabilise_column(diagram: GridDiagram, column: int) -> GridDiagram:
 
 def _inverse(rows: tuple[int, ...]) -> tuple[int, ...]:
     """The column of each row, from the row of each column."""
-    columns = [0] * len(rows)
-    for column, row in enumerate(rows, 1):
-        columns[row - 1] = column
-    return tuple(columns)
+    return tuple((np.argsort(rows) + 1).tolist())
 
 
 def _transposed(diagram: GridDiagram) -> GridDiagram:
     return transform(diagram, Symmetry.TRANSPOSE)
 
 
-def _exchange(diagram: GridDiagram, column: int) -> GridDiagram:
+def _commute(diagram: GridDiagram, column: int, kind: str) -> GridDiagram:
+    """Exchange a column with the next one; `kind` names both to the reader."""
+    if not can_commute_columns(diagram, column):
+        after = column % diagram.size + 1
+        raise MoveError(f"{kind} {column} and {after} do not commute: their marks interleave")
     left, right = column - 1, column % diagram.size
     minus, plus = list(diagram.minus), list(diagram.plus)
-    minus[left], minus[right] = minus[right], minus[left]
-    plus[left], plus[right] = plus[right], plus[left]
+    for line in (minus, plus):
+        line[left], line[right] = line[right], line[left]
     return GridDiagram(tuple(minus), tuple(plus))
 
 

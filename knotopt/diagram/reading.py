@@ -66,7 +66,11 @@ def _read_json(text: str) -> GridDiagram:
 def _read_csv(text: str) -> GridDiagram:
     lines: list[list[int]] = []
     kind = ""
-    for number, fields in enumerate(_csv_lines(text), 1):
+    try:
+        rows = list(csv.reader(text.splitlines()))
+    except csv.Error as error:
+        raise FileFormatError(f"not the CSV of a grid diagram: {error}") from error
+    for number, fields in enumerate(rows, 1):
         if not any(field.strip() for field in fields):
             continue
         if not lines and [field.strip().lower() for field in fields] == ["column", "row"]:
@@ -78,13 +82,6 @@ def _read_csv(text: str) -> GridDiagram:
             line = ",".join(fields)
             raise FileFormatError(f"line {number} is {line!r}, expected integers") from error
     return _from_lists(lines, kind)
-
-
-def _csv_lines(text: str) -> list[list[str]]:
-    try:
-        return list(csv.reader(text.splitlines()))
-    except csv.Error as error:
-        raise FileFormatError(f"not the CSV of a grid diagram: {error}") from error
 
 
 def _from_lists(lines: list[list[int]], kind: str) -> GridDiagram:

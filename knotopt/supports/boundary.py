@@ -50,6 +50,13 @@ class Boundaries:
         pocket: BoolArray = self.b[:, 1] >= 0
         return pocket
 
+    def contain(self, region: IntArray | slice, times: IntArray) -> BoolArray:
+        """Which of T times lie on the boundaries of the given regions, shape (len, T)."""
+        a, b = self.a[region, :, None], self.b[region, :, None]
+        on: BoolArray = (a[:, 0] <= times) & (times <= a[:, 1])
+        on |= (b[:, 0] <= times) & (times <= b[:, 1])
+        return on
+
     def position(self, region: IntArray, time: IntArray) -> IntArray:
         """Distance walked round the boundary from its start to the given times [grid steps].
 
@@ -99,17 +106,10 @@ def find_boundaries(cable: Cable) -> Boundaries:
     met_second = closing[kept + ~forward]
     loops = np.arange(count)
     return Boundaries(
-        apexes=np.concatenate(
-            (np.stack((loops, loops), axis=1), np.stack((met_first, met_second), axis=1))
+        apexes=np.column_stack((np.append(loops, met_first), np.append(loops, met_second))),
+        a=np.column_stack(
+            (np.append(crossings.first, low[kept]), np.append(crossings.second, high[kept]))
         ),
-        a=np.concatenate(
-            (
-                np.stack((crossings.first, crossings.second), axis=1),
-                np.stack((low[kept], high[kept]), axis=1),
-            )
-        ),
-        b=np.concatenate(
-            (np.tile([0, -1], (count, 1)), np.stack((start[kept], end[kept]), axis=1))
-        ),
+        b=np.column_stack((np.append(0 * loops, start[kept]), np.append(0 * loops - 1, end[kept]))),
         b_forward=np.concatenate((np.ones(count, dtype=bool), forward)),
     )

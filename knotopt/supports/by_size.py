@@ -134,9 +134,7 @@ def sets_in_order(
         raise RequirementError("sets come in order of their robots: not with a largest number")
     passed = excluded or {}
     states = [
-        _CutState(
-            Cable(diagram, cut), replace(asked, excluded=(*asked.excluded, *passed.get(cut, ())))
-        )
+        _CutState(Cable(diagram, cut), _without(asked, passed.get(cut, ())))
         for cut in (crossing_free_cuts(diagram) if cuts is None else cuts)
     ]
     if not states:
@@ -195,19 +193,22 @@ class _CutState:
         return CutOutcome(cut, None, self.bound, Status.UNKNOWN)
 
     def exclude(self, supports: Supports) -> None:
-        self.asked = replace(self.asked, excluded=(*self.asked.excluded, supports))
+        self.asked = _without(self.asked, [supports])
         self.answer = None
+
+
+def _without(asked: Requirements, sets: Sequence[Supports]) -> Requirements:
+    return replace(asked, excluded=(*asked.excluded, *sets))
 
 
 def _solve(
     state: _CutState, index: int, states: list[_CutState], solver: str, limits: Limits | None
 ) -> None:
     """Find the smallest set left on a cut, unless another cut has one that comes before it."""
-    known = [(each.result.robots, k) for k, each in enumerate(states) if each.result is not None]
-    better = None
-    if known:
-        robots, first = min(known)
-        better = robots + (index < first)
+    known = (
+        each.result.robots + (index < k) for k, each in enumerate(states) if each.result is not None
+    )
+    better = min(known, default=None)
     result = minimal_supports(
         state.cable,
         state.asked,
@@ -221,12 +222,10 @@ def _solve(
         raise KeyboardInterrupt
     state.answer = result
     state.bound = max(state.bound, result.solution.bound or 0)
-    if result.found:
-        return
     if result.solution.status is Status.INFEASIBLE and better is not None:
         state.bound = max(state.bound, better)
     else:
-        state.waits = False
+        state.waits = result.found
 
 
 def _nothing_left(

@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable
 
-from formulations.solution import Limits
+from formulations.solution import Limits, MissingSolverError
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import Cut, crossing_free_cuts
 from knotopt.diagram.grid import GridDiagram
-from knotopt.errors import CertificateError, RequirementError
+from knotopt.errors import CertificateError, MissingExtraError, RequirementError
 from knotopt.supports.formulation import Claim
 from knotopt.supports.lcf import lcf
 from knotopt.supports.minimal import compile_program
@@ -80,6 +80,8 @@ def prove(
             proof = proofs[method](Claim(program, instance, asked.openness, best.robots))
         except CertificateError as error:
             raise CertificateError(f"{name}, cut {cut}: {error}") from error
+        except MissingSolverError as error:
+            raise MissingExtraError(error.package, error.extra, "a refutation") from error
         bounds.append(bound | proof)
     certificate = {
         "format": FORMAT,

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from knotopt.arrays import BoolArray, FloatArray, IntArray
-from knotopt.supports.opening import cross, crossings_of_ray
+from knotopt.supports.opening import cross, crossings_of_ray, squared_distance
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,22 +61,7 @@ def ray_to(anchor: IntArray, moved: Moved, q: IntArray) -> IntArray:
 
 def distance_to(anchor: IntArray, moved: Moved, q: IntArray) -> FloatArray:
     """Squared distances of q from the segments anchor - c', exact up to one rounding."""
-    along = moved.xy - anchor * moved.d[..., None]  # times d
-    offset = q - anchor
-    beyond = q * moved.d[..., None] - moved.xy  # times d
-    length = (along * along).sum(axis=-1)  # times d^2
-    dot = (along * offset).sum(axis=-1)  # times d
-    side = cross(along, offset)  # times d
-    found: FloatArray = np.where(
-        dot <= 0,
-        (offset * offset).sum(axis=-1),
-        np.where(
-            dot * moved.d >= length,
-            (beyond * beyond).sum(axis=-1) / (moved.d * moved.d),
-            side * side / np.maximum(length, 1),
-        ),
-    )
-    return found
+    return squared_distance(q, anchor, moved.xy, moved.d)
 
 
 def between(
@@ -96,9 +81,7 @@ def between(
     # The ray meets the chord's line if q lies to the left of it, seen upward.
     hit = (side * np.sign(along[:, 1]) > 0).astype(np.int64)
     below0, below1 = (moved.xy[..., 1] <= q[1] * moved.d for moved in (moved0, moved1))
-    turns = hit[:, None, None] * (
-        below1[:, None].astype(np.int64) - below0[:, :, None].astype(np.int64)
-    )
+    turns = hit[:, None, None] * (below1[:, None].astype(np.int64) - below0[:, :, None])
     beyond0, beyond1 = (
         np.sign(moved.along * length[:, None] - dot[:, None] * moved.d)
         for moved in (moved0, moved1)

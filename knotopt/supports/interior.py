@@ -44,11 +44,11 @@ def fill_interiors(cable: Cable, boundaries: Boundaries) -> NDArray[np.uint8]:
             f"take {gibibytes:.0f} GiB, and {MAX_GIBIBYTES} are allowed"
         )
     batch = max(1, _CELLS_AT_ONCE // (size + 2) ** 2)
-    parts = [
-        np.packbits(_fill(cable, boundaries, slice(low, low + batch)), axis=1)
-        for low in range(0, len(boundaries), batch)
-    ]
-    return np.concatenate(parts) if parts else np.zeros((0, (size * size + 7) // 8), dtype=np.uint8)
+    packed = np.zeros((len(boundaries), (size * size + 7) // 8), dtype=np.uint8)
+    for low in range(0, len(boundaries), batch):
+        part = slice(low, low + batch)
+        packed[part] = np.packbits(_fill(cable, boundaries, part), axis=1)
+    return packed
 
 
 def unpack(packed: NDArray[np.uint8], size: int) -> BoolArray:

@@ -116,11 +116,10 @@ def best_cut(diagram: GridDiagram, *, layered: bool = False) -> LcfResult:
 def _extremal_points(regions: Regions, active: IntArray) -> list[list[int]]:
     """Turning points with max x, min x, max y, min y of B(l) (eq. 10); ties: first on the path."""
     on = regions.on_boundary(active)
-    extremes = []
-    for coordinate in regions.cable.points.T:
-        # 0 lies outside the 1-based grid on one side, size + 1 on the other.
-        extremes.append(np.where(on, coordinate, 0).argmax(axis=1))
-        extremes.append(np.where(on, coordinate, regions.cable.diagram.size + 1).argmin(axis=1))
+    column, row = regions.cable.points.T
+    # 0 lies outside the 1-based grid on one side, and -size - 1, of what is reversed, on the other.
+    outside = -regions.cable.diagram.size - 1
+    extremes = [np.where(on, c, outside).argmax(axis=1) for c in (column, -column, row, -row)]
     points: list[list[int]] = np.stack(extremes, axis=1).tolist()
     return points
 

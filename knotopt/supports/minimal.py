@@ -252,11 +252,10 @@ def compile_program(seeded: LcfResult, requirements: Requirements) -> Program:
     RequirementError
         A point that the cable does not have, or a region too large for `span`.
     """
-    regions = seeded.regions
-    team = compile_team(regions, requirements)
+    team = compile_team(seeded.regions, requirements)
     start = (1, *seeded.supports, len(seeded.cable.path))
-    formulation = find_formulation(requirements.formulation)
-    program: Program = formulation.compile(regions, requirements.threading, team, start)
+    compiler = find_formulation(requirements.formulation).compile
+    program: Program = compiler(seeded.regions, requirements.threading, team, start)
     return program
 
 
@@ -299,8 +298,7 @@ def _solve(
     """The smallest set, or the smallest of fewer than `better_than` robots."""
     if better_than is None:
         return _at_hand(backend.solve(instance, deadline.left()), instance)
-    packed = instance.packing_bound()
-    if packed >= better_than:
+    if (packed := instance.packing_bound()) >= better_than:
         words = f"{packed} robots at least, by rows that share no point"
         return Solution(Status.INFEASIBLE, words, bound=packed)
     instance = instance.with_rows([instance.at_most(better_than - 1)])
@@ -343,8 +341,7 @@ def _result(
     *,
     canonical: bool = False,
 ) -> MinimalSupports:
-    found = chosen is not None
-    supports = chosen[1:-1] if chosen is not None else ()
+    found, supports = chosen is not None, (chosen or ())[1:-1]
     return MinimalSupports(
         seeded, asked, program, instance, solution, found, supports, found and canonical
     )

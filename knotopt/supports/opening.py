@@ -10,7 +10,6 @@ found once for all regions, as arrays over pairs of nodes and threading points.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -25,25 +24,6 @@ from knotopt.supports.regions import Regions
 from knotopt.supports.threading import Threading
 from knotopt.supports.threading_points import threading_points
 
-
-@dataclass(frozen=True, eq=False)
-class _Stretches:
-    """Pieces of boundary that a chord may cut short, from node u to node w along the path.
-
-    u, w: turning points (0-based) or -1 for an apex; first, last: the turning points between;
-    start, end: times of the two ends; region: whose boundary.
-    """
-
-    u: IntArray
-    first: IntArray
-    last: IntArray
-    w: IntArray
-    start: IntArray
-    end: IntArray
-    region: IntArray
-
-
-_FIELDS = ("u", "first", "last", "w", "start", "end", "region")
 _ENTRIES_AT_ONCE = 1 << 20
 
 
@@ -80,10 +60,10 @@ def compile_opening(
     threading = threading_points(regions, mode)
     active, where = np.unique(threading.region, return_index=True)
     bounds = np.append(where, len(threading))
-    stretches = _stretches(regions, active)
-    margins = np.full(len(stretches.u), np.inf)
-    cause = np.zeros(len(stretches.u), dtype=np.int64)
-    slot = np.searchsorted(active, stretches.region)
+    stretches, starts_at, ends_at, region_of = _stretches(regions, active)
+    margins = np.full(len(stretches), np.inf)
+    cause = np.zeros(len(stretches), dtype=np.int64)
+    slot = np.searchsorted(active, region_of)
     counts = np.diff(bounds)[slot]
     total = np.cumsum(counts)
     begin = 0
@@ -94,7 +74,7 @@ def compile_opening(
         pair = np.repeat(part, counts[part])
         offset = np.arange(len(pair)) - np.repeat(total[part] - counts[part] - done, counts[part])
         q = threading.point[bounds[slot[pair]] + offset]
-        found = stretch_margins(cable, stretches.start[pair], stretches.end[pair], q)
+        found = stretch_margins(cable, starts_at[pair], ends_at[pair], q)
         starts = total[part] - counts[part] - done
         margins[part] = np.minimum.reduceat(found, starts)
         # Which threading point it is, for the row's origin.
@@ -103,22 +83,20 @@ def compile_opening(
         cause[stretch] = q[nearest[index]]
         begin = end
     # The same stretch bounds several regions: keep the row that counts first.
-    keys = np.stack((stretches.u, stretches.first, stretches.last, stretches.w), axis=1) + 1
-    order = np.lexsort((margins, *keys.T))
+    order = np.lexsort((margins, *stretches.T))
     fresh = np.ones(len(order), dtype=bool)
-    fresh[1:] = (keys[order[1:]] != keys[order[:-1]]).any(axis=1)
+    fresh[1:] = (stretches[order[1:]] != stretches[order[:-1]]).any(axis=1)
     kept = np.sort(order[fresh])
     kept = kept[margins[kept] < 1.0]  # beyond openness 1 not even the grid's own path is open
 
     def origin(index: int) -> str:
-        number = int(kept[index])
-        region = regions.name(int(stretches.region[number]))
-        return f"{region}, threaded at p{int(cause[number]) + 1}"
+        number = kept[index]
+        return f"{regions.name(int(region_of[number]))}, threaded at p{cause[number] + 1}"
 
     return OpeningProgram(
         name=f"opening, {mode}, cut {cable.cut}",
         points=len(cable.path),
-        stretches=keys[kept],
+        stretches=stretches[kept],
         margins=margins[kept],
         origin=origin,
         at_least=tuple(_area(regions, active)),
@@ -129,16 +107,20 @@ def compile_opening(
 
 def _area(regions: Regions, active: IntArray) -> list[tuple[tuple[int, ...], int, str]]:
     rows: dict[tuple[tuple[int, ...], int], int] = {}
-    on = regions.on_boundary(active)
-    for index, mask in zip(active.tolist(), on, strict=True):
+    for index, mask in zip(active.tolist(), regions.on_boundary(active), strict=True):
         points = tuple((np.flatnonzero(mask) + 1).tolist())
-        pocket = bool(regions.boundaries.is_pocket[index])
-        rows.setdefault((points, 1 if pocket else 2), index)
+        rows.setdefault((points, 1 if regions.boundaries.is_pocket[index] else 2), index)
     return [(points, count, regions.name(index)) for (points, count), index in rows.items()]
 
 
-def _stretches(regions: Regions, active: IntArray) -> _Stretches:
-    """Every stretch between two nodes of every interval of the given regions' boundaries."""
+def _stretches(regions: Regions, active: IntArray) -> tuple[IntArray, IntArray, IntArray, IntArray]:
+    """Every stretch between two nodes of every interval of the given regions' boundaries.
+
+    Returns
+    -------
+    stretches : (S, 4), u, first, last, w as of `OpeningProgram`
+    start, end, region : (S,), times of the two ends, and whose boundary it is
+    """
     cable, boundaries = regions.cable, regions.boundaries
     intervals = [
         (index, int(low), int(high))
@@ -150,25 +132,14 @@ def _stretches(regions: Regions, active: IntArray) -> _Stretches:
     for index, low, high in intervals:
         first = int(np.searchsorted(cable.times, low))
         last = int(np.searchsorted(cable.times, high, side="right")) - 1
-        # Nodes in path order: apex, turning points first ... last, apex.
-        point = np.concatenate(([-1], np.arange(first, last + 1), [-1]))
+        # Nodes in path order: apex, turning points first ... last (0-based), apex.
+        point = np.concatenate(([0], np.arange(first, last + 1) + 1, [0]))
         time = np.concatenate(([low], cable.times[first : last + 1], [high]))
-        place = np.arange(first - 1, last + 2)
         i, j = np.triu_indices(len(point), k=2)  # neighbours lie on one segment
-        parts.append(
-            (
-                point[i],
-                place[i] + 1,
-                place[j] - 1,
-                point[j],
-                time[i],
-                time[j],
-                np.full(len(i), index),
-            )
-        )
-    if not parts:
-        return _Stretches(*(np.zeros(0, dtype=np.int64) for _ in _FIELDS))
-    return _Stretches(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+        columns = (point[i], i + first + 1, j + first - 1, point[j], time[i], time[j])
+        parts.append(np.stack((*columns, np.full(len(i), index))))
+    table = np.concatenate((np.zeros((7, 0), dtype=np.int64), *parts), axis=1)
+    return table[:4].T, *table[4:]
 
 
 def stretch_margins(cable: Cable, start: IntArray, end: IntArray, q: IntArray) -> FloatArray:
@@ -226,20 +197,23 @@ def crossings_of_ray(start: IntArray, end: IntArray, q: IntArray) -> IntArray:
     return signed
 
 
-def squared_distance(q: IntArray, start: IntArray, end: IntArray) -> FloatArray:
-    """Squared distance of points from segments, exact up to one rounding, shape (...)."""
-    along, offset = end - start, q - start
-    length = (along * along).sum(axis=-1)
+def squared_distance(
+    q: IntArray, start: IntArray, end: IntArray, d: IntArray | int = 1
+) -> FloatArray:
+    """Squared distance of points from segments start - end / d, exact up to one rounding."""
+    scale = np.expand_dims(d, -1)
+    along, offset = end - start * scale, q - start
+    beyond = q * scale - end
+    length = (along * along).sum(axis=-1)  # times d^2; along, beyond, dot and side times d
     dot = (along * offset).sum(axis=-1)
     side = cross(along, offset)
-    beyond = q - end
     found: FloatArray = np.where(
         dot <= 0,
         (offset * offset).sum(axis=-1),
         np.where(
-            dot >= length,
-            (beyond * beyond).sum(axis=-1),
-            (side * side) / np.maximum(length, 1),
+            dot * d >= length,
+            (beyond * beyond).sum(axis=-1) / (d * d),
+            side * side / np.maximum(length, 1),
         ),
     )
     return found

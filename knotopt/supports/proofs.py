@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from itertools import count
 from math import comb
 from typing import Any
@@ -11,10 +10,9 @@ from typing import Any
 from formulations.canonical import Program
 from formulations.cnf import Clause, at_most, clauses
 from formulations.proof import Refutation, refute, refute_lazily
-from formulations.solution import MissingSolverError
 from formulations.span import Span, SpanProgram
 from formulations.team import not_consecutive
-from knotopt.errors import CertificateError, MissingExtraError
+from knotopt.errors import CertificateError
 from knotopt.supports.formulation import Claim
 from knotopt.verify.proofs import MAX_COUNT
 
@@ -40,14 +38,13 @@ def by_refutation(claim: Claim[Program]) -> dict[str, Any]:
 
     Raises
     ------
-    MissingExtraError
+    MissingSolverError
         PySAT is not installed.
     CertificateError
         A smaller set exists.
     """
     given = [*clauses(claim.instance), *_counting(claim)]
-    with _solver():
-        refutation = refute(given)
+    refutation = refute(given)
     return _content(claim, None if refutation is None else (given, refutation))
 
 
@@ -66,8 +63,7 @@ def by_refutation_of_spans(claim: Claim[SpanProgram]) -> dict[str, Any]:
         spans.update(found)
         return list(found)
 
-    with _solver():
-        refuted = refute_lazily([(1,), (points,), *_counting(claim)], points, violated)
+    refuted = refute_lazily([(1,), (points,), *_counting(claim)], points, violated)
     content = _content(claim, refuted)
     excused = [spans.get(clause, ()) for clause in content["clauses"]]
     return {"clauses": content["clauses"], "spans": excused, "steps": content["steps"]}
@@ -77,14 +73,6 @@ def _counting(claim: Claim[Any]) -> list[Clause]:
     """At most one robot fewer."""
     points = claim.instance.decisions
     return list(at_most(range(1, points + 1), claim.robots - 1, count(points + 1)))
-
-
-@contextmanager
-def _solver() -> Iterator[None]:
-    try:
-        yield
-    except MissingSolverError as error:
-        raise MissingExtraError(error.package, error.extra, "a refutation") from error
 
 
 def _content(

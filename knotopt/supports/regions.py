@@ -101,12 +101,7 @@ class Regions:
 
     def on_boundary(self, regions: IntArray) -> BoolArray:
         """Which turning points lie on the boundaries of the given regions, shape (len, n)."""
-        times = self.cable.times
-        a, b = self.boundaries.a[regions, :, None], self.boundaries.b[regions, :, None]
-        on: BoolArray = ((a[:, 0] <= times) & (times <= a[:, 1])) | (
-            (b[:, 0] <= times) & (times <= b[:, 1])
-        )
-        return on
+        return self.boundaries.contain(regions, self.cable.times)
 
     @cached_property
     def inside(self) -> BoolArray:
@@ -117,11 +112,15 @@ class Regions:
         mask: BoolArray = ((self.packed_interiors[:, bit // 8] >> (7 - bit % 8)) & 1).astype(bool)
         return mask
 
+    @property
+    def later(self) -> BoolArray:
+        """Which turning points lie in each interior and come later than its start, shape (R, n)."""
+        return self.inside & (self.cable.times > self.boundaries.a[:, :1])
+
     @cached_property
     def threaded_by(self) -> IntArray:
         """Index (0-based) of the first later turning point inside, -1 if none, shape (R,)."""
-        threading = self.inside & (self.cable.times > self.boundaries.a[:, :1])
-        found: IntArray = np.where(threading.any(axis=1), threading.argmax(axis=1), -1)
+        found: IntArray = np.where(self.later.any(axis=1), self.later.argmax(axis=1), -1)
         return found
 
     @cached_property

@@ -17,11 +17,7 @@ from formulations.timing import Deadline
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import Cut, crossing_free_cuts
 from knotopt.diagram.grid import GridDiagram
-from knotopt.diagram.moves import (
-    commute_columns,
-    commute_rows,
-    translate,
-)
+from knotopt.diagram.moves import commute_columns, commute_rows, translate
 from knotopt.errors import MoveError, RequirementError
 from knotopt.supports.minimal import MinimalSupports, canonical_supports, minimal_supports
 from knotopt.supports.requirements import Requirements
@@ -91,14 +87,10 @@ class CutSearch:
         """Whether no cut has a smaller set."""
         if not self.best.is_proven:
             return False
+        left = [outcome for outcome in self.outcomes if outcome.status is not Status.INFEASIBLE]
         if self.best.requirements.max_robots is not None:
-            done = (Status.OPTIMAL, Status.INFEASIBLE)
-            return all(outcome.status in done for outcome in self.outcomes)
-        return all(
-            outcome.status is Status.INFEASIBLE
-            or (outcome.bound is not None and outcome.bound >= self.best.robots)
-            for outcome in self.outcomes
-        )
+            return all(outcome.status is Status.OPTIMAL for outcome in left)
+        return all((outcome.bound or 0) >= self.best.robots for outcome in left)
 
 
 @dataclass(frozen=True)
@@ -256,13 +248,11 @@ def best_diagram(
     tried = 0
     for candidate in _walk(diagram, budget, seed):
         if tried > 0:
+            incumbent = best.best.robots if best.best.found else None
+            left = deadline.left()
             try:
                 search = best_supports(
-                    candidate,
-                    requirements,
-                    solver=solver,
-                    limits=deadline.left(),
-                    better_than=best.best.robots if best.best.found else None,
+                    candidate, requirements, solver=solver, limits=left, better_than=incumbent
                 )
             except KeyboardInterrupt:  # with nothing known of this diagram
                 break
@@ -321,8 +311,5 @@ def is_better(result: MinimalSupports, other: MinimalSupports) -> bool:
         return result.found
     if result.requirements.max_robots is None:
         return result.robots < other.robots
-    openings = [
-        float("inf") if each.smallest_opening is None else each.smallest_opening
-        for each in (result, other)
-    ]
-    return openings[0] > openings[1]
+    opening, best = result.smallest_opening, other.smallest_opening
+    return best is not None and (opening is None or opening > best)

@@ -64,13 +64,13 @@ def choose_supports(
     >>> [choose_supports(diagram, choice, "L+").robots for choice in CHOICES]
     [5, 5, 10]
     """
-    if choice not in CHOICES:
-        if Path(choice).suffix.lower() != ".json":
-            names = ", ".join(CHOICES)
-            raise RequirementError(
-                f"supports are {names} or a .json file with a set of them, not {choice!r}"
-            )
+    if Path(choice).suffix.lower() == ".json":
         return read_supports(Path(choice), diagram, cut)
+    if choice not in CHOICES:
+        names = ", ".join(CHOICES)
+        raise RequirementError(
+            f"supports are {names} or a .json file with a set of them, not {choice!r}"
+        )
     if choice == "all":
         cable = Cable(diagram, "L+" if cut == "best" else cut)
         return GivenSupports(cable, tuple(range(2, len(cable.path))))

@@ -19,7 +19,7 @@ polygon, as one corner moves.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from math import prod
@@ -133,10 +133,10 @@ def compile_span(
 def _loop(
     regions: Regions, index: int, threads: list[_Thread], forbidden: FloatArray
 ) -> Iterator[Conflict]:
-    low, high = regions.boundaries.a[index].tolist()
-    _forbid_covering(regions.cable, (low, high), forbidden)
-    first, second = _leaving(regions.cable, low, high), _arriving(regions.cable, low, high)
-    yield _corner(regions.cable, first, second, threads, high, regions.name(index))
+    interval = regions.boundaries.a[index].tolist()
+    _forbid_covering(regions.cable, interval, forbidden)
+    first, second = (_ends(regions.cable, interval, visit) for visit in interval)
+    yield _corner(regions.cable, first, second, threads, interval[1], regions.name(index))
 
 
 def _pocket(
@@ -149,12 +149,7 @@ def _pocket(
     corners = [(a[0], b[1]), (a[1], b[0])] if forward else [(a[0], b[0]), (a[1], b[1])]
     for corner in corners:
         _forbid_covering(cable, corner, forbidden)
-    closes = max(a[1], b[1])
-
-    def ends(interval: list[int], visit: int) -> _Ends:
-        side = _leaving if visit == interval[0] else _arriving
-        return side(cable, *interval)
-
+    closes, ends = max(a[1], b[1]), partial(_ends, cable)
     # Robots on both sides: each corner moves by itself.
     for on_a, on_b in corners:
         yield _corner(cable, ends(a, on_a), ends(b, on_b), threads, closes, name)
@@ -172,32 +167,22 @@ def _first_after(cable: Cable, time: int) -> int:
     return int(np.searchsorted(cable.times, time))  # a crossing's time is no turning point's
 
 
-def _pairs(first: range, second: range) -> IntArray:
-    grid = np.meshgrid(np.array(first), np.array(second), indexing="ij")
-    return np.stack(grid, axis=-1).reshape(-1, 2).astype(np.int64)
-
-
-def _leaving(cable: Cable, low: int, high: int) -> _Ends:
-    """Spans over `low` that end at a robot within the interval."""
-    i, j = _first_after(cable, low), _first_after(cable, high)
-    spans = _pairs(range(i), range(i, j))
-    return _Ends(spans, spans[:, 1], low)
-
-
-def _arriving(cable: Cable, low: int, high: int) -> _Ends:
-    """Spans over `high` that start at a robot within the interval."""
-    i, j = _first_after(cable, low), _first_after(cable, high)
-    spans = _pairs(range(i, j), range(j, len(cable.path)))
-    return _Ends(spans, spans[:, 0], high)
+def _ends(cable: Cable, interval: list[int], visit: int) -> _Ends:
+    """Spans over one end of an interval, with a robot within the interval."""
+    i, j = (_first_after(cable, time) for time in interval)
+    leaves = visit == interval[0]
+    grid = np.mgrid[:i, i:j] if leaves else np.mgrid[i:j, j : len(cable.path)]
+    spans = grid.reshape(2, -1).T
+    return _Ends(spans, spans[:, int(leaves)], visit)
 
 
 def _covering(cable: Cable, interval: list[int]) -> IntArray:
     """Spans over a whole interval."""
-    i, j = _first_after(cable, interval[0]), _first_after(cable, interval[1])
-    return _pairs(range(i), range(j, len(cable.path)))
+    i, j = (_first_after(cable, time) for time in interval)
+    return np.mgrid[:i, j : len(cable.path)].reshape(2, -1).T
 
 
-def _forbid_covering(cable: Cable, visits: tuple[int, int], forbidden: FloatArray) -> None:
+def _forbid_covering(cable: Cable, visits: Iterable[int], forbidden: FloatArray) -> None:
     """A span over both visits of a crossing loses it."""
     spans = _covering(cable, sorted(visits)) + 1
     forbidden[spans[:, 0], spans[:, 1]] = 0.0
@@ -208,8 +193,8 @@ def _forbid_within(
 ) -> None:
     """Spans within the boundary must not close on a threading point."""
     cable = regions.cable
-    for low, high in (regions.boundaries.a[index].tolist(), regions.boundaries.b[index].tolist()):
-        inside = np.arange(_first_after(cable, low), _first_after(cable, high))
+    for interval in (regions.boundaries.a[index], regions.boundaries.b[index]):
+        inside = np.arange(*(_first_after(cable, time) for time in interval))
         i, j = np.triu_indices(len(inside), k=2)
         u, w = inside[i], inside[j]
         for thread in threads:
@@ -297,9 +282,8 @@ def _side(
         clear = np.minimum(
             distance_to(before, moved0, q)[:, :, None], distance_to(after, moved1, q)[:, None]
         )
-        meets = moved0.meets[:, :, None] & moved1.meets[:, None]
-        clear = np.minimum(clear, shortest)
-        margins = np.minimum(margins, np.where(meets & (wound == 0), clear, 0.0))
+        kept = moved0.meets[:, :, None] & moved1.meets[:, None] & (wound == 0)
+        margins = np.minimum(margins, np.where(kept, np.minimum(clear, shortest), 0.0))
     apart = _overlap(first.spans[:, None], second.spans[None])[None]
     apart = apart | _overlap(spans[:, None], first.spans[None])[:, :, None]
     apart = apart | _overlap(spans[:, None], second.spans[None])[:, None]
@@ -310,8 +294,7 @@ def _side(
 def _overlap(first: IntArray, second: IntArray) -> BoolArray:
     """Whether two spans cannot both be part of one path."""
     apart = (first[..., 1] <= second[..., 0]) | (second[..., 1] <= first[..., 0])
-    same = (first == second).all(axis=-1)
-    overlap: BoolArray = ~apart & ~same
+    overlap: BoolArray = ~apart & (first != second).any(axis=-1)
     return overlap
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from formulations.team import ReachTarget, Team
-from knotopt.arrays import FloatArray
+from knotopt.arrays import BoolArray, FloatArray
 from knotopt.cable.cable import Cable
 from knotopt.supports.regions import Regions
 from knotopt.supports.registry import find_formulation
@@ -26,18 +26,14 @@ def compile_team(regions: Regions, requirements: Requirements) -> Team:
     cable = regions.cable
     requirements.check_points(len(cable.path))
     distance = _distances(cable)
-    u, w = np.triu_indices(len(cable.path), k=1)
-    too_close: tuple[tuple[int, int], ...] = ()
-    too_long: tuple[tuple[int, int], ...] = ()
-    if requirements.separation is not None:
-        close = distance[u, w] < requirements.separation - SLACK
-        too_close = tuple(zip((u[close] + 1).tolist(), (w[close] + 1).tolist(), strict=True))
-    if requirements.payload is not None:
-        long = distance[u, w] > requirements.payload + SLACK
-        too_long = tuple(zip((u[long] + 1).tolist(), (w[long] + 1).tolist(), strict=True))
+    separation, payload = requirements.separation or 0.0, requirements.payload or np.inf
+
+    def pairs(chosen: BoolArray) -> tuple[tuple[int, int], ...]:
+        return tuple((u, w) for u, w in (np.argwhere(np.triu(chosen, k=1)) + 1).tolist())
+
     return Team(
-        too_close=too_close,
-        too_long=too_long,
+        too_close=pairs(distance < separation - SLACK),
+        too_long=pairs(distance > payload + SLACK),
         reach=tuple(_reach(regions, requirements)) if requirements.reach is not None else (),
         forbidden=requirements.forbidden,
         forced=requirements.forced,
@@ -47,8 +43,7 @@ def compile_team(regions: Regions, requirements: Requirements) -> Team:
 
 
 def _distances(cable: Cable) -> FloatArray:
-    apart = cable.points[:, None] - cable.points[None]
-    distances: FloatArray = np.sqrt((apart * apart).sum(axis=-1))
+    distances: FloatArray = np.linalg.norm(cable.points[:, None] - cable.points, axis=-1)
     return distances
 
 
@@ -65,15 +60,11 @@ def _reach(regions: Regions, requirements: Requirements) -> list[ReachTarget]:
         threading = threading.first_of_strands()
     assert requirements.reach is not None
     near = _distances(cable) <= requirements.reach + SLACK
-    partner = {}
-    for first, second in zip(
-        cable.crossings.first.tolist(), cable.crossings.second.tolist(), strict=True
-    ):
-        partner[first], partner[second] = second, first
+    first, second = cable.crossings.first.tolist(), cable.crossings.second.tolist()
+    partner = dict(zip(first + second, second + first, strict=True))
     targets = {}
-    for region, q, entry in zip(
-        threading.region.tolist(), threading.point.tolist(), threading.entry.tolist(), strict=True
-    ):
+    columns = (threading.region, threading.point, threading.entry)
+    for region, q, entry in zip(*(column.tolist() for column in columns), strict=True):
         crossed = int(np.searchsorted(cable.times, partner[entry]))  # first point after it
         entered = int(np.searchsorted(cable.times, entry))
         options = []

@@ -54,16 +54,13 @@ def threading_points(regions: Regions, mode: Threading) -> ThreadingPoints:
     [(0, 9, 19), (1, 9, 19)]
     """
     cable = regions.cable
-    later = regions.inside & (cable.times > regions.boundaries.a[:, :1])
-    region, point = np.nonzero(later)
+    region, point = np.nonzero(regions.later)
     visits, crossing, over = cable.visits
-    crossings, boundaries = cable.crossings, regions.boundaries
+    crossings, every = cable.crossings, slice(None)
     # The strand through a point enters and leaves at the visits next to it whose crossing lies on
     # the boundary; runs of visits off the boundary are skipped with a running maximum.
-    on = np.zeros((len(regions), len(visits)), dtype=bool)
-    for first, last in (*boundaries.a.T[None], *boundaries.b.T[None]):
-        for time in (crossings.first[crossing], crossings.second[crossing]):
-            on |= (first[:, None] <= time) & (time <= last[:, None])
+    on = regions.boundaries.contain(every, crossings.first[crossing])
+    on |= regions.boundaries.contain(every, crossings.second[crossing])
     place = np.arange(len(visits))
     before = np.maximum.accumulate(np.where(on, place, -1), axis=1)
     reverse = np.where(on, place, len(visits))[:, ::-1]

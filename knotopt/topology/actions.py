@@ -209,27 +209,17 @@ def perform(code: Code, action: Action) -> Code:
             # The top strand's first crossing is positive if it comes from the lower one's left;
             # `one` is the sign at the first low visit.
             one = below_left ^ (crossed and over_first < 0)
-            return _inserted(
-                code,
-                low,
-                (4 * near + top + one, 4 * far + top + (not one)),
-                high,
-                (
-                    4 * back + 2 - top + (one ^ crossed),
-                    4 * forth + 2 - top + (not one ^ crossed),
-                ),
-            )
+            above = 4 * near + top + one, 4 * far + top + (not one)
+            other = one ^ crossed
+            beneath = 4 * back + 2 - top + other, 4 * forth + 2 - top + (not other)
+            return _inserted(code, low, above, high, beneath)
 
 
 def _with_crossing(code: Code, low: int, high: int, low_over: bool, positive: bool) -> Code:
     """One more crossing, of segments low <= high."""
-    return _inserted(
-        code,
-        low,
-        (4 * high + 4 + 2 * low_over + positive,),
-        high,
-        (4 * low + 2 * (not low_over) + positive,),
-    )
+    before = 4 * high + 4 + 2 * low_over + positive
+    after = 4 * low + 2 * (not low_over) + positive
+    return _inserted(code, low, (before,), high, (after,))
 
 
 def _inserted(

@@ -89,8 +89,9 @@ def ambiguities(
                     level.add(crossing)
                 clear |= pairs
             else:
-                vertex, segment = group[0]
-                found.append(_at(seen, reason, _named(vertex, segment), seen.flat[vertex]))
+                vertex, segment = group[0]  # not named as neighbours, if there is a choice
+                named = (vertex - 1, segment) if 0 < vertex < segment else (vertex, segment)
+                found.append(_at(seen, reason, named, seen.flat[vertex]))
                 clear -= pairs
                 level.difference_update(_crossings_among(number, pairs))
         meeting = np.array(sorted(clear), dtype=np.intp).reshape(-1, 2)
@@ -122,11 +123,8 @@ def _groups(seen: Projection, contacts: list[Contact]) -> list[list[Contact]]:
 def _pairs_of(contact: Contact, vertices: int) -> list[Pair]:
     """The pairs of segments whose crossing can change at a contact."""
     vertex, segment = contact
-    return [
-        (min(own, segment), max(own, segment))
-        for own in (vertex - 1, vertex)
-        if 0 <= own < vertices - 1
-    ]
+    own = range(max(vertex - 1, 0), min(vertex + 1, vertices - 1))
+    return [(min(k, segment), max(k, segment)) for k in own]
 
 
 def _runs_on(seen: Projection, contact: Contact) -> bool:
@@ -233,13 +231,6 @@ def _triple_points(seen: Projection, meeting: IntArray, tolerance: float) -> Ite
         normals = np.stack((-steps[t, :, 1], steps[t, :, 0]), axis=1)
         place = origin[t] + np.linalg.lstsq(normals, offsets[t])[0]
         yield _at(seen, Reason.TRIPLE, triples[t].tolist(), place)
-
-
-def _named(vertex: int, segment: int) -> Pair:
-    """The two segments to name at a contact: not neighbours, if there is a choice."""
-    if vertex < segment:
-        return max(vertex - 1, 0), segment
-    return segment, vertex
 
 
 def _at(seen: Projection, reason: Reason, segments: Iterable[int], place: FloatArray) -> Ambiguity:

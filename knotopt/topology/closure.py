@@ -6,6 +6,7 @@ everything to the first one, along any way; here along one that crosses the fewe
 
 from __future__ import annotations
 
+from bisect import bisect
 from collections import deque
 
 from knotopt.cable.notation import pd_from_gauss
@@ -27,11 +28,7 @@ def brought_together(state: RopeState) -> RopeState:
     visits = len(state.code)
     segments = sorted(segment for segment, _ in way)
     under = {segment: segment + rank for rank, segment in enumerate(segments)}
-    shift = [0] * visits
-    inserted = 0
-    for visit in range(visits):
-        inserted += visit in under
-        shift[visit] = visit + inserted
+    shift = [visit + bisect(segments, visit) for visit in range(visits)]
     code = [0] * (visits + 2 * len(way))
     for visit, entry in enumerate(state.code):
         code[shift[visit]] = 4 * shift[entry >> 2] + (entry & 3)

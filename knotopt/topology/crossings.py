@@ -80,9 +80,6 @@ def projection(points: FloatArray) -> Projection:
     """The polyline seen from above, points float array of shape (m, 3)."""
     flat, height = points[:, :2], points[:, 2]
     stays = (flat[1:] == flat[:-1]).all(axis=1)
-    if not stays.any():
-        segment = np.arange(len(points) - 1)
-        return Projection(flat, height[:-1], height[1:], height, height, segment)
     first = np.concatenate(([0], np.flatnonzero(~stays) + 1))
     last = np.append(first[1:], len(points)) - 1
     return Projection(

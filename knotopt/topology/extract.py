@@ -151,8 +151,7 @@ def extract_state(
     if ambiguous:
         return Extraction(None, *_NOTHING, ambiguous)
     state, visits = _along(seen, crossings)
-    marks = np.empty(len(visits) + 2)
-    marks[0], marks[1:-1], marks[-1] = 0, visits.parameter, len(points) - 1
+    marks = np.concatenate(([0.0], visits.parameter, [len(points) - 1.0]))
     return Extraction(state, visits, np.stack((marks[:-1], marks[1:]), axis=1), ())
 
 

@@ -58,19 +58,13 @@ def face_cycles(code: Code) -> tuple[tuple[int, ...], ...]:
     ((0, 3, 4, 5, 1), (2,))
     """
     after = next_darts(code)
-    met = [False] * len(after)
-    cycles = []
-    for start in range(len(after)):
-        if met[start]:
-            continue
-        cycle = []
-        dart = start
-        while not met[dart]:
-            met[dart] = True
-            cycle.append(dart)
-            dart = after[dart]
-        cycles.append(tuple(cycle))
-    return tuple(cycles)
+    cycles: list[list[int]] = []
+    for dart, face in enumerate(dart_faces(code)):
+        if face == len(cycles):
+            cycles.append([dart])
+            while (following := after[cycles[-1][-1]]) != dart:
+                cycles[-1].append(following)
+    return tuple(map(tuple, cycles))
 
 
 def lies_in_the_plane(code: Code) -> bool:

@@ -157,8 +157,7 @@ def _matrix_in(path: Path) -> RopeState | None:
             rows = json.loads(text)
     except (OSError, ValueError, RecursionError, csv.Error):
         return None  # what is wrong with it is found again where it is read as a grid
-    has_key = isinstance(rows, dict)
-    if has_key:
+    if has_key := isinstance(rows, dict):
         rows = rows.get("matrix")
     return RopeState.from_matrix(rows) if _looks_like_state(rows, has_key) else None
 

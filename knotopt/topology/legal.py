@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from enum import StrEnum
+from itertools import product
 
 from knotopt.topology.actions import R1, R2, Action, C, RopeActionError, perform
 from knotopt.topology.faces import Code, dart_faces
@@ -54,10 +55,7 @@ def legal_actions(state: RopeState, rule: R2Rule | str = R2Rule.PAPER) -> Iterat
     """Every legal action, as `successors` orders them."""
     rule = R2Rule(rule)
     last = len(state.code)
-    for idx in range(last + 1):
-        for left in (-1, 1):
-            yield R1(idx, left, -1)
-            yield R1(idx, left, 1)
+    yield from (R1(*label) for label in product(range(last + 1), (-1, 1), (-1, 1)))
     face = dart_faces(state.code)
     borders: list[list[int]] = [[] for _ in range(last // 2 + 1)]
     for dart, number in enumerate(face):
@@ -71,9 +69,8 @@ def legal_actions(state: RopeState, rule: R2Rule | str = R2Rule.PAPER) -> Iterat
                 yield C(segment, end, -sign)
     if rule is not R2Rule.PUBLIC or face[0] == face[-1]:
         for border in borders:
-            for top in border:
-                for below in border:
-                    yield from _fingers(top, below, rule)
+            for top, below in product(border, repeat=2):
+                yield from _fingers(top, below, rule)
 
 
 def _fingers(top: int, below: int, rule: R2Rule) -> Iterator[R2]:
@@ -117,11 +114,11 @@ def refusal(state: RopeState, action: Action, rule: R2Rule | str = R2Rule.PAPER)
     """Why the state does not allow the action; None if it does."""
     rule = R2Rule(rule)
     last = len(state.code)
-    bits, segments = _numbers(action)
-    for name, bit in bits.items():
+    for name in ("left", "over_first", "sign"):
+        bit = getattr(action, name, 1)  # R1, C and R2 have two or one of them
         if bit not in {1, -1}:
             return f"{name} is {bit}, not +1 or -1"
-    for segment in segments:
+    for segment in (action.idx,) if isinstance(action, R1) else (action.over, action.under):
         if not 0 <= segment <= last:
             return f"there is no segment {segment}, only 0 to {last}"
     match action:
@@ -130,17 +127,6 @@ def refusal(state: RopeState, action: Action, rule: R2Rule | str = R2Rule.PAPER)
         case R2():
             return _refuse_r2(state.code, action, rule)
     return None
-
-
-def _numbers(action: Action) -> tuple[dict[str, int], tuple[int, ...]]:
-    """The two-valued parameters of an action, and its segments."""
-    match action:
-        case R1(idx, left, sign):
-            return {"left": left, "sign": sign}, (idx,)
-        case C(over, under, sign):
-            return {"sign": sign}, (over, under)
-        case R2(over, under, left, over_first):
-            return {"left": left, "over_first": over_first}, (over, under)
 
 
 def _refuse_c(code: Code, action: C) -> str | None:

@@ -110,16 +110,9 @@ def check_certificate(text: str) -> CheckedCertificate:
         raise CertificateError(
             f"the bound is claimed for every cut, but none is given for {missing}"
         )
+    knot, count = field(certificate, "knot", str), len(covered)
     return CheckedCertificate(
-        field(certificate, "knot", str),
-        formulation,
-        mode,
-        openness,
-        robots,
-        cut,
-        len(covered),
-        every_cut,
-        tuple(marks),
+        knot, formulation, mode, openness, robots, cut, count, every_cut, tuple(marks)
     )
 
 

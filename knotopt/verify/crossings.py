@@ -98,13 +98,8 @@ def curve_crossings(points: FloatArray) -> CurveCrossings:
     height = points[:, 2]
     gap = height[i] + u * (height[i + 1] - height[i]) - height[j] - v * (height[j + 1] - height[j])
     turn = np.sign(sides[:, 1] - sides[:, 0])  # of segment i into segment j's direction
-    return CurveCrossings(
-        i + u,
-        j + v,
-        flat[i] + u[:, None] * (flat[i + 1] - flat[i]),
-        gap,
-        (turn * np.sign(gap)).astype(np.int64),
-    )
+    point = flat[i] + u[:, None] * (flat[i + 1] - flat[i])
+    return CurveCrossings(i + u, j + v, point, gap, (turn * np.sign(gap)).astype(np.int64))
 
 
 def grid_code(path: Sequence[Cell]) -> tuple[list[Visit], list[int]]:

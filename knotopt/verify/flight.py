@@ -246,14 +246,12 @@ def _crossings(
         with np.errstate(divide="ignore", invalid="ignore"):
             shares[sense] = -(here * along).sum(axis=1) / (along * along).sum(axis=1)
             inside &= (when > 0) & (when < 1) & (shares[sense] > 0) & (shares[sense] < 1)
-    found = [(np.flatnonzero((net == sense) | inside), sense) for sense in roots]
-    which = np.concatenate([rows for rows, _ in found])
-    sense_of = np.concatenate([np.full(len(rows), sense) for rows, sense in found])
-    when = np.concatenate([roots[sense][rows] for rows, sense in found])
-    share = np.concatenate([shares[sense][rows] for rows, sense in found])
+    senses = np.array(list(roots))
+    order, which = np.nonzero((net == senses[:, None]) | inside)
+    when, share = (np.stack(list(each.values()))[order, which] for each in (roots, shares))
     # Where rounding decides whether there is a root, it lies at the end of the interval or edge.
     when, share = (np.clip(np.nan_to_num(x, nan=0.5), 0, 1) for x in (when, share))
-    return k[which], e[which], sense_of, when, share
+    return k[which], e[which], senses[order], when, share
 
 
 def _cross(p: FloatArray, q: FloatArray) -> FloatArray:

@@ -216,20 +216,20 @@ class _Track:
     def speed(self, limit: float) -> Worst:
         moved = self.positions[self.steps :] - self.positions[: -self.steps]
         rate = np.linalg.norm(moved, axis=2) / self.window
-        k, robot = np.unravel_index(int(rate.argmax()), rate.shape)
-        time, value = float(self.times[k] + self.window / 2), float(rate[k, robot])
+        k, robot, value = _extreme(rate)
+        time = float(self.times[k] + self.window / 2)
         sentence = f"robot {robot + 1} flies at {value:.3f} m/s at {time:.2f} s; "
         sentence += f"the limit is {limit:g} m/s"
-        return self._at_most(value, limit, (int(robot) + 1,), time, sentence)
+        return self._at_most(value, limit, (robot + 1,), time, sentence)
 
     def acceleration(self, limit: float) -> Worst:
         h, x = self.steps, self.positions
         rate = np.linalg.norm(x[2 * h :] - 2 * x[h:-h] + x[: -2 * h], axis=2) / self.window**2
-        k, robot = np.unravel_index(int(rate.argmax()), rate.shape)
-        time, value = float(self.times[k + h]), float(rate[k, robot])
+        k, robot, value = _extreme(rate)
+        time = float(self.times[k + h])
         sentence = f"robot {robot + 1} accelerates by {value:.3f} m/s² at {time:.2f} s; "
         sentence += f"the limit is {limit:g} m/s²"
-        return self._at_most(value, limit, (int(robot) + 1,), time, sentence)
+        return self._at_most(value, limit, (robot + 1,), time, sentence)
 
     def separation(self, level: float, vertical: float) -> Worst:
         scaled = self.positions / [level, level, vertical]
@@ -249,17 +249,15 @@ class _Track:
 
     def cable(self) -> Worst:
         share = np.linalg.norm(np.diff(self.positions, axis=1), axis=2) / self.lengths
-        k, span = (int(x) for x in np.unravel_index(int(share.argmax()), share.shape))
-        time, value = float(self.times[k]), float(share[k, span])
+        k, span, value = _extreme(share)
+        time = float(self.times[k])
         sentence = f"the cable between robots {span + 1} and {span + 2} is stretched to "
         sentence += f"{value:.3f} of its {self.lengths[span]:.3f} m at {time:.2f} s"
         return self._at_most(value, 1.0, (span + 1, span + 2), time, sentence)
 
     def height(self, limit: float, *, lowest: bool) -> Worst:
-        z = self.positions[:, :, 2]
-        found = int(z.argmin() if lowest else z.argmax())
-        k, robot = (int(x) for x in np.unravel_index(found, z.shape))
-        time, value = float(self.times[k]), float(z[k, robot])
+        k, robot, value = _extreme(self.positions[:, :, 2], smallest=lowest)
+        time = float(self.times[k])
         bound = f"below the floor of {limit:g} m" if lowest else f"above the ceiling of {limit:g} m"
         sentence = f"robot {robot + 1} is at {value:.3f} m at {time:.2f} s, {bound}"
         judge = self._at_least if lowest else self._at_most
@@ -308,3 +306,10 @@ class _Track:
     ) -> Worst:
         kept = value >= limit * (1 - self.tolerance)
         return Worst(value, limit, robots, time, "" if kept else sentence)
+
+
+def _extreme(values: FloatArray, *, smallest: bool = False) -> tuple[int, int, float]:
+    """Row and column of the first largest or smallest value, and the value."""
+    found = values.argmin() if smallest else values.argmax()
+    row, column = divmod(int(found), values.shape[1])
+    return row, column, float(values[row, column])

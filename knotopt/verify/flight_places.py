@@ -224,5 +224,5 @@ def _place(
     if not later:
         span = float(starts[event.older - 1]), float(starts[event.older])
         return span, (start, math.inf)
-    first, second = ([getattr(each, name) for each in later] for name in ("first", "second"))
+    first, second = [each.first for each in later], [each.second for each in later]
     return (min(first), max(first)), (min(second), max(second))

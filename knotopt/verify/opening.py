@@ -141,9 +141,8 @@ def _around(region: DefinedRegion, cells: Sequence[Cell]) -> list[Cell]:
 
 def _closes(stretch: Sequence[Cell], q: Cell, openness: Fraction) -> bool:
     """Whether the chord between the ends of a boundary stretch closes on q."""
-    if squared_distance(q, stretch[0], stretch[-1]) < openness**2:
-        return True
-    return winding_number(stretch, q) != 0
+    near = squared_distance(q, stretch[0], stretch[-1]) < openness**2
+    return near or winding_number(stretch, q) != 0
 
 
 def _examine(
@@ -168,6 +167,7 @@ def _examine(
         stretch = around[u : w + 1] if u < w else [*around[u:], *around[: w + 1]]
         for q in threading:
             distance = squared_distance(q, around[u], around[w])
+            lost = distance > 0 and winding_number(stretch, q) != 0
             what = f"the chord {_label(around[u], corner)} to {_label(around[w], corner)}"
             where = f"p{corner[q]}"
             if distance < openness**2:
@@ -175,11 +175,9 @@ def _examine(
                     f"{what} passes {where} at {float(distance) ** 0.5:.3f}, "
                     f"closer than {float(openness):g}"
                 )
-            elif winding_number(stretch, q) != 0:
+            elif lost:
                 reasons.append(f"{what} cuts {where} off")
-            if distance > 0 and winding_number(stretch, q) != 0:
-                distance = Fraction(0)
-            distances.append(distance)
+            distances.append(Fraction(0) if lost else distance)
     return min(distances), reasons
 
 

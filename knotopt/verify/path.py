@@ -174,24 +174,20 @@ def radii(points: FloatArray) -> FloatArray:
     a, b = np.diff(points, axis=0)[:-1], np.diff(points, axis=0)[1:]
     across = np.linalg.norm(a + b, axis=1)
     area = np.linalg.norm(np.cross(a, b), axis=1)
+    sides = np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1) * across
     with np.errstate(divide="ignore"):
-        found: FloatArray = (
-            np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1) * across / (2 * area)
-        )
+        found: FloatArray = sides / (2 * area)
     return found
 
 
 def closed_code(points: FloatArray) -> tuple[list[Visit], list[int]]:
     """Gauss code of a path in space closed far above, seen along a tilted direction."""
-    top = points[:, 2].max() + FAR
-    ends = points[[-1, 0]].copy()
-    ends[:, 2] = top
+    ends = points[[-1, 0]]
+    ends[:, 2] = points[:, 2].max() + FAR
     # The closing lines must not end where the path begins: seen along the tilt, they would touch.
     closed = np.concatenate((points, ends, points[:1] + 1e-6))
-    seen = closed.copy()
-    seen[:, 0] -= TILT[0] * closed[:, 2]
-    seen[:, 1] -= TILT[1] * closed[:, 2]
-    return curve_crossings(seen).code
+    closed[:, :2] -= closed[:, 2:] * TILT
+    return curve_crossings(closed).code
 
 
 def alexander_of(code: tuple[list[Visit], list[int]]) -> tuple[int, ...]:
@@ -202,9 +198,7 @@ def alexander_of(code: tuple[list[Visit], list[int]]) -> tuple[int, ...]:
 
 def _gaps(crossings: CurveCrossings, visits: list[Visit]) -> FloatArray:
     """Height of each crossing's upper strand on the grid above the other."""
-    first_over: dict[int, bool] = {}
-    for crossing, over in visits:
-        first_over.setdefault(crossing, over)
+    first_over = dict(reversed(visits))
     upper = np.array([first_over[k] for k in range(len(crossings))], dtype=bool)
     gaps: FloatArray = np.where(upper, crossings.gap, -crossings.gap)
     return gaps
@@ -265,8 +259,7 @@ class _Measured:
     def between(self) -> FloatArray:
         """Shortest way between crossings along the path, shape (C, C)."""
         at, which = self.visits
-        count = len(self.crossings)
-        arcs = np.full((count, count), np.inf)
+        arcs = np.full((len(self.crossings),) * 2, np.inf)
         np.minimum.at(arcs, (which[:-1], which[1:]), np.maximum(np.diff(at), 1e-12))
         ways: FloatArray = dijkstra(csgraph_from_dense(arcs, null_value=np.inf), directed=False)
         return ways
@@ -282,11 +275,8 @@ class _Measured:
             for b in (after_j - 1, after_j):
                 known = (a >= 0) & (a < len(at)) & (b >= 0) & (b < len(at))
                 p, q = np.clip(a, 0, len(at) - 1), np.clip(b, 0, len(at) - 1)
-                through = (
-                    np.abs(self.along[i] - at[p])
-                    + self.between[which[p], which[q]]
-                    + np.abs(self.along[j] - at[q])
-                )
+                through = np.abs(self.along[i] - at[p]) + self.between[which[p], which[q]]
+                through += np.abs(self.along[j] - at[q])
                 way = np.where(known, np.minimum(way, through), way)
         return way
 
@@ -306,21 +296,18 @@ class _Measured:
             if region.threaded_by is None:
                 continue
             boundary = {cells[time] for time in region.walk}
-            edge = np.concatenate(
-                [self._between(at[low], at[high]) for low, high in _stretches(region.walk)]
-            )
+            stretches = [(at[low], at[high]) for low, high in _stretches(region.walk)]
+            edge = np.concatenate([self._between(*stretch) for stretch in stretches])
             tree = cKDTree(self.samples[edge[::2], :2])
             ends = [t for t in visited if cells[t] in boundary]
-            strands = set()
-            for point in path:
-                time = time_of[point]
-                if point in region.interior and time > min(region.walk):
-                    next_end = bisect(ends, time)
-                    after = ends[next_end] if next_end < len(ends) else None
-                    strands.add((ends[next_end - 1], after))
-            for before, after in strands:
-                end = self.along[-1] if after is None else at[after]
-                inside = self._between(at[before], end)
+            strands = {
+                bisect(ends, time_of[point])
+                for point in path
+                if point in region.interior and time_of[point] > min(region.walk)
+            }
+            for after in strands:
+                end = at[ends[after]] if after < len(ends) else self.along[-1]
+                inside = self._between(at[ends[after - 1]], end)
                 room = float(tree.query(self.samples[inside[::2], :2])[0].max())
                 if room < least:
                     least, narrowest = room, region.name
@@ -334,7 +321,6 @@ class _Measured:
 
 def _stretches(walk: Sequence[int]) -> list[tuple[int, int]]:
     """The runs of consecutive times in a walk round a boundary."""
-    times = sorted(walk)
-    starts = [t for k, t in enumerate(times) if k == 0 or times[k - 1] != t - 1]
-    ends = [t for k, t in enumerate(times) if k + 1 == len(times) or times[k + 1] != t + 1]
-    return list(zip(starts, ends, strict=True))
+    times = np.unique(walk)
+    runs = np.split(times, np.flatnonzero(np.diff(times) > 1) + 1)
+    return [(int(run[0]), int(run[-1])) for run in runs]

@@ -78,15 +78,12 @@ def _define(path: tuple[Cell, ...], size: int) -> tuple[DefinedRegion, ...]:
     regions = []
     for kind, apexes, walk in (*loops, *pockets):
         interior = enclosed({cells[t] for t in walk}, size)
-        threaded_by = next(
-            (
-                k
-                for k, point in enumerate(path, 1)
-                if point in interior and visits[point][0] > min(walk)
-            ),
-            None,
+        threading = (
+            k
+            for k, point in enumerate(path, 1)
+            if point in interior and visits[point][0] > min(walk)
         )
-        regions.append(DefinedRegion(kind, apexes, walk, interior, threaded_by))
+        regions.append(DefinedRegion(kind, apexes, walk, interior, next(threading, None)))
     return tuple(regions)
 
 
@@ -113,11 +110,8 @@ def _pockets(cells: Sequence[Cell], crossings: Sequence[list[int]]) -> Iterator[
                 continue
             later = range(low, high + 1)
             back = later if other[end] == low else reversed(later)
-            yield (
-                "pocket",
-                frozenset([cells[start], cells[end]]),
-                (*range(start, end + 1), *back),
-            )
+            apexes = frozenset([cells[start], cells[end]])
+            yield "pocket", apexes, (*range(start, end + 1), *back)
 
 
 def enclosed(boundary: set[Cell], size: int) -> frozenset[Cell]:

@@ -17,9 +17,10 @@ move together.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import chain, pairwise
 from typing import Any
 
 from knotopt.errors import CertificateError
@@ -30,7 +31,8 @@ from knotopt.verify.opening import threading_cells
 from knotopt.verify.proofs import by_counting, by_refutation
 from knotopt.verify.regions import Cell, DefinedRegion, define_regions, lay
 
-Reasons = list[str]
+Span = tuple[int, int]
+Corner = tuple[Sequence[Point], Sequence[tuple[Point, Point]]]  # closed curve it sweeps, new edges
 
 
 @dataclass(frozen=True)
@@ -118,7 +120,7 @@ def check_span(
     for index, region in enumerate(define_regions(path, size)):
         if region.kind == "pocket" and not pockets:
             continue
-        reasons: Reasons = []
+        reasons: list[str] = []
         for entry, q in _strands(region, path, cells, mode).items():
             intervals = _intervals(region, robots)
             taut = _Taut(cells, robots, q, entry, max(region.walk))
@@ -158,17 +160,21 @@ def _intervals(region: DefinedRegion, robots: Sequence[int]) -> list[_Interval]:
 
 def _examine(
     taut: _Taut, intervals: Sequence[_Interval], openness: Fraction
-) -> tuple[Fraction, Reasons]:
+) -> tuple[Fraction, list[str]]:
     """Smallest squared opening about one threading point (0 if it is lost), and what is wrong."""
     distances: list[Fraction] = []
-    reasons: Reasons = []
-    for interval in intervals:
-        for start, end in zip(interval.robots, interval.robots[1:], strict=False):
-            stretch = taut.grid(start, end)
-            distances.append(squared_distance(taut.q, stretch[0], stretch[-1]))
-            if distances[-1] > 0 and winding_number(stretch, taut.q) != 0:
-                reasons.append("a span on the boundary cuts it off")
-    for curve, edges in _corners(taut, intervals, reasons):
+    reasons: list[str] = []
+    spans = list(pairwise(taut.robots))
+    for stretch, chord in _within(taut, intervals, spans):
+        distances += (squared_distance(taut.q, *edge) for edge in chord)
+        if distances[-1] > 0 and winding_number(stretch, taut.q) != 0:
+            reasons.append("a span on the boundary cuts it off")
+    corners = _corners(taut, intervals, spans)
+    if len(intervals) == 2 and not any(interval.robots for interval in intervals):
+        reasons.append("no robot on either side of a pocket")
+    elif corners is None:
+        reasons.append("the spans over a crossing no longer cross")
+    for curve, edges in corners or ():
         distances += (squared_distance(taut.q, *edge) for edge in edges)
         if min(distances) > 0 and winding_number(curve, taut.q) != 0:
             reasons.append("a moved crossing leaves it outside")
@@ -178,47 +184,64 @@ def _examine(
     return smallest, reasons
 
 
-Corner = tuple[list[Point], list[tuple[Point, Point]]]
+def _within(taut: _Taut, intervals: Sequence[_Interval], laid: Sequence[Span]) -> Iterator[Corner]:
+    """The spans on the boundary, each as a chord with the piece of the grid that it cuts short."""
+    for interval in intervals:
+        for start, end in laid:
+            if interval.low < start < end < interval.high:
+                stretch = taut.grid(start, end)
+                yield stretch, [(stretch[0], stretch[-1])]
 
 
-def _corners(taut: _Taut, intervals: Sequence[_Interval], reasons: Reasons) -> list[Corner]:
-    """For each corner that moves: the closed curve it sweeps, and its new edges."""
-    if len(intervals) == 1:
-        (loop,) = intervals
-        at = taut.crossing(loop.low, loop.high)
-        if at is None or not loop.robots:
-            reasons.append("the spans over a crossing no longer cross")
-            return []
-        return [_one(taut, (loop.robots[-1], loop.high), (loop.low, loop.robots[0]), at)]
-    a, b = intervals
+def _corners(
+    taut: _Taut, intervals: Sequence[_Interval], laid: Sequence[Span]
+) -> list[Corner] | None:
+    """The corners that these spans settle; None if a crossing is lost."""
+    loop = len(intervals) == 1
+    first, second = intervals[0], intervals[-1]
     cells = taut.cells
-    partner = {
-        visit: next(other for other in (b.low, b.high) if cells[other] == cells[visit])
-        for visit in (a.low, a.high)
-    }
-    moved = {visit: taut.crossing(visit, partner[visit]) for visit in (a.low, a.high)}
-    if not (a.robots or b.robots):
-        reasons.append("no robot on either side of a pocket")
-        return []
-    low, high = moved[a.low], moved[a.high]
-    if low is None or high is None:
-        reasons.append("the spans over a crossing no longer cross")
-        return []
-
-    def anchor(interval: _Interval, visit: int) -> int:
-        return interval.robots[0] if visit == interval.low else interval.robots[-1]
-
-    if a.robots and b.robots:
-        return [
-            _one(taut, (anchor(b, partner[v]), partner[v]), (v, anchor(a, v)), at)
-            for v, at in ((a.low, low), (a.high, high))
+    corners = [(first.low, first.high)]
+    if not loop:
+        ends = (second.low, second.high)
+        corners = [
+            (visit, next(other for other in ends if cells[other] == cells[visit]))
+            for visit in (first.low, first.high)
         ]
-    # One side is a single span: both corners move together.
-    bare, held = (b, a) if a.robots else (a, b)
-    on_held = {partner[v]: v for v in partner} if a.robots else partner
-    at_low, at_high = (low, high) if bare is a or partner[a.low] == b.low else (high, low)
-    before, after = (anchor(held, on_held[v]) for v in (bare.low, bare.high))
-    return [_together(taut, bare, on_held, (before, after), (at_low, at_high))]
+
+    def over(time: int) -> Span | None:
+        return next((span for span in laid if span[0] < time < span[1]), None)
+
+    def anchor(interval: _Interval, visit: int) -> int | None:
+        span = over(visit)
+        end = None if span is None else span[1] if visit == interval.low else span[0]
+        return end if end is not None and interval.low < end < interval.high else None
+
+    found: list[Corner] = []
+    at: dict[int, Point] = {}
+    for one, other in corners:
+        if over(one) is None or over(other) is None:
+            continue
+        crossing = taut.crossing(one, other)
+        if crossing is None:
+            return None
+        at[one] = at[other] = crossing
+        ends_at = anchor(first, one), anchor(second, other)
+        if ends_at[0] is not None and ends_at[1] is not None:
+            found.append(_one(taut, (ends_at[1], other), (one, ends_at[0]), crossing))
+    if loop or len(at) < 4:
+        return found
+    # Both corners of a pocket: is a side a single span?
+    partner = dict(corners) | {other: one for one, other in corners}
+    bare = [side for side in intervals if over(side.low) == over(side.high)]
+    if len(bare) == 2:
+        return None
+    for side in bare:
+        held = second if side is first else first
+        before, after = (anchor(held, partner[visit]) for visit in (side.low, side.high))
+        if before is not None and after is not None:
+            moved = at[side.low], at[side.high]
+            found.append(_together(taut, side, partner, (before, after), moved))
+    return found
 
 
 def _together(
@@ -245,9 +268,6 @@ def _one(taut: _Taut, before: tuple[int, int], after: tuple[int, int], at: Point
     """One corner: from a robot to a visit of the crossing, from the other visit to a robot."""
     curve: list[Point] = [*taut.grid(*before), *taut.grid(*after), at]
     return curve, [(taut.cells[before[0]], at), (at, taut.cells[after[1]])]
-
-
-Span = tuple[int, int]
 
 
 class SpanRules:
@@ -295,77 +315,21 @@ class SpanRules:
         robots = sorted({time for span in laid for time in span})
         for region, q, entry in self._threads:
             taut = _Taut(self._cells, robots, q, entry, max(region.walk))
-            if self._lost(taut, _intervals(region, robots), laid):
+            intervals = _intervals(region, robots)
+            corners = _corners(taut, intervals, laid)
+            if corners is None:
+                return True
+            curves = chain(_within(taut, intervals, laid), corners)
+            if any(self._passes(taut.q, *curve) for curve in curves):
                 return True
         return False
 
-    def _lost(self, taut: _Taut, intervals: Sequence[_Interval], laid: Sequence[Span]) -> bool:
-        for interval in intervals:
-            for start, end in laid:
-                if interval.low < start < end < interval.high:
-                    stretch = taut.grid(start, end)
-                    if self._passes(taut, stretch, [(stretch[0], stretch[-1])]):
-                        return True
-        return any(self._passes(taut, *corner) for corner in self._moved(taut, intervals, laid))
-
     def _passes(
-        self, taut: _Taut, curve: Sequence[Point], edges: Sequence[tuple[Point, Point]]
+        self, q: Point, curve: Sequence[Point], edges: Sequence[tuple[Point, Point]]
     ) -> bool:
         """Whether an edge comes too close to the threading point, or the curve winds round it."""
-        if any(squared_distance(taut.q, *edge) < self._openness**2 for edge in edges):
-            return True
-        return not edges or winding_number(curve, taut.q) != 0
-
-    def _moved(
-        self, taut: _Taut, intervals: Sequence[_Interval], laid: Sequence[Span]
-    ) -> list[Corner]:
-        """The corners that these spans settle; one without edges is a crossing that is lost."""
-        lost: Corner = ([], [])
-        loop = len(intervals) == 1
-        first, second = intervals[0], intervals[-1]
-        cells = taut.cells
-        corners = [(first.low, first.high)]
-        if not loop:
-            ends = (second.low, second.high)
-            corners = [
-                (visit, next(other for other in ends if cells[other] == cells[visit]))
-                for visit in (first.low, first.high)
-            ]
-
-        def over(time: int) -> Span | None:
-            return next((span for span in laid if span[0] < time < span[1]), None)
-
-        def anchor(interval: _Interval, visit: int) -> int | None:
-            span = over(visit)
-            end = None if span is None else span[1] if visit == interval.low else span[0]
-            return end if end is not None and interval.low < end < interval.high else None
-
-        found: list[Corner] = []
-        at: dict[int, Point] = {}
-        for one, other in corners:
-            if over(one) is None or over(other) is None:
-                continue
-            crossing = taut.crossing(one, other)
-            if crossing is None:
-                return [lost]
-            at[one] = at[other] = crossing
-            ends_at = anchor(first, one), anchor(second, other)
-            if ends_at[0] is not None and ends_at[1] is not None:
-                found.append(_one(taut, (ends_at[1], other), (one, ends_at[0]), crossing))
-        if loop or len(at) < 4:
-            return found
-        # Both corners of a pocket: is a side a single span?
-        partner = dict(corners) | {other: one for one, other in corners}
-        bare = [side for side in intervals if over(side.low) == over(side.high)]
-        if len(bare) == 2:
-            return [lost]
-        for side in bare:
-            held = second if side is first else first
-            before, after = (anchor(held, partner[visit]) for visit in (side.low, side.high))
-            if before is not None and after is not None:
-                moved = at[side.low], at[side.high]
-                found.append(_together(taut, side, partner, (before, after), moved))
-        return found
+        near = any(squared_distance(q, *edge) < self._openness**2 for edge in edges)
+        return near or winding_number(curve, q) != 0
 
 
 def _clauses(claim: Claim, content: Mapping[str, Any]) -> set[frozenset[int]]:
