@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from knotopt.cli.documents import print_tables
 from knotopt.cli.options import (
     CatalogueOption,
     JsonOption,
@@ -21,7 +20,7 @@ from knotopt.cli.options import (
     run_header,
     solver_limits,
 )
-from knotopt.cli.printing import print_json, print_written
+from knotopt.cli.printing import print_json, print_tables, print_written
 from knotopt.cli.progress import track
 
 if TYPE_CHECKING:
@@ -82,5 +81,4 @@ def compare(
         print_json(rows)
         return
     print_tables(comparison.tabulated(rows).document)
-    if out is not None:
-        print_written(out)
+    print_written(out)

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from knotopt.cli.fly_printing import show_mission
-from knotopt.cli.logs import telling
 from knotopt.cli.options import (
     JsonOption,
     KnotArgument,
@@ -23,7 +21,7 @@ from knotopt.cli.options import (
     unless_given,
 )
 from knotopt.cli.printing import print_json, print_written
-from knotopt.cli.progress import track
+from knotopt.cli.progress import status_line, track
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.request import FLOWN, SCHEDULES, FlightRequest
 from knotopt.mission.disturbed import DisturbedFlights
@@ -148,24 +146,19 @@ def fly(
         speed, acceleration, separation, downwash, spacing, slack, hover_before, hover_after
     )
     given = {"noise": noise, "wind": wind, "gust": gust, "seed": seed, "runs": runs}
-    if not sim:
-        _refuse_without_physics(given | {"tighten": tighten})
+    for name, value in (given | {"tighten": tighten}).items():
+        if value is not None and not sim:
+            refuse(f"--{name}", "goes with --sim")
     disturbances = _disturbances(given)
     _check_surroundings(out, sim=sim)
 
     named = find_knot(knot)
     sets = equally_small(named.diagram, supports, cut, requirements)
     request = FlightRequest(named.name, Path(supports).name, world, limits, schedule)
-    mission = _flown(sets, request, disturbances, tighten) if sim else _planned(sets, request)
+    mission = _mission(sets, request, disturbances, tighten, sim=sim)
     _finish(mission, f"{named.name} ({named.source})", out, as_json=as_json)
     if mission.reasons:
         raise typer.Exit(1)
-
-
-def _refuse_without_physics(given: Mapping[str, object]) -> None:
-    for name, value in given.items():
-        if value is not None:
-            refuse(f"--{name}", "goes with --sim")
 
 
 def _disturbances(given: Mapping[str, Any]) -> list[Disturbance]:
@@ -198,24 +191,21 @@ def _check_surroundings(out: Path | None, *, sim: bool) -> None:
         MUJOCO.require()
 
 
-def _planned(sets: Iterable[SupportSet], request: FlightRequest) -> Mission:
-    """The flight by the model of laid cable."""
-    from knotopt.mission.fly import plan_mission
-
-    with _progress("planning"):
-        return plan_mission(sets, request)
-
-
-def _flown(
+def _mission(
     sets: Iterable[SupportSet],
     request: FlightRequest,
     disturbances: list[Disturbance],
     tighten: float | None,
+    *,
+    sim: bool,
 ) -> Mission:
-    """The flight rehearsed, perhaps pulled tight, then flown undisturbed and disturbed."""
-    from knotopt.mission.fly import fly_disturbed, rehearse_mission
+    """The flight by the model of laid cable; or rehearsed, perhaps pulled tight, and flown."""
+    from knotopt.mission.fly import fly_disturbed, plan_mission, rehearse_mission
 
-    with _progress("rehearsing"):
+    if not sim:
+        with status_line("planning", "planning: "):
+            return plan_mission(sets, request)
+    with status_line("rehearsing", "rehearsing: "):
         mission = rehearse_mission(sets, request, tighten)
     flights = track(disturbances, "disturbed flights", len(disturbances))
     return fly_disturbed(mission, flights)
@@ -227,13 +217,12 @@ def _finish(mission: Mission, title: str, out: Path | None, *, as_json: bool) ->
 
     missing = None if out is None else _write(mission, out)
     if as_json:
-        print_json({**mission_content(mission), "written": None if out is None else str(out)})
+        print_json(mission_content(mission) | {"written": None if out is None else str(out)})
         return
     show_mission(mission, title)
     if missing:
         print(missing)
-    if out is not None:
-        print_written(out)
+    print_written(out)
 
 
 def _write(mission: Mission, out: Path) -> str:
@@ -249,20 +238,3 @@ def _write(mission: Mission, out: Path) -> str:
         missing = f"no pictures: {error}"
     write_folder(out, files, why_kept)
     return missing
-
-
-@contextmanager
-def _progress(what: str) -> Iterator[None]:
-    """Say on the error stream what is being done, if somebody looks."""
-    from rich.console import Console
-    from rich.markup import escape
-
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield
-        return
-    with (
-        console.status(what) as status,
-        telling(lambda text: status.update(f"{what}: {escape(text)}")),
-    ):
-        yield

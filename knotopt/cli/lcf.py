@@ -71,8 +71,7 @@ def lcf(
             for region, selected in zip(result.regions, result.selected, strict=True)
         ),
     )
-    if plot is not None:
-        print_written(plot)
+    print_written(plot)
 
 
 def _print_cuts(name: str, results: list[LcfResult], *, as_json: bool) -> None:

@@ -136,8 +136,7 @@ def path(
         print_json(content if len(content) > 1 else content[0])
     else:
         _show(results, title, supports, world)
-        for file in written:
-            print_written(file)
+        print_written(*written)
     if results[-1].blocked:
         raise typer.Exit(1)
 

@@ -193,8 +193,7 @@ def solve(
         show_search(f"{named.name} ({named.source})", search, diagram_search)
         if sets is not None:
             show_sets(sets, count or MOST_SETS)
-        for path in written:
-            print_written(path)
+        print_written(*written)
     if not result.found:
         raise typer.Exit(1)
 

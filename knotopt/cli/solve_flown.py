@@ -5,16 +5,14 @@ from __future__ import annotations
 import importlib.metadata
 import json
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from knotopt.cli.logs import telling
 from knotopt.cli.options import refuse, run_header, unless_given
+from knotopt.cli.progress import status_line
 from knotopt.cli.solve_flown_printing import flown_json
 from knotopt.rehearsal.flight_tests import FlightTests
 
@@ -103,7 +101,7 @@ def fly_sets(
     def search(
         known: tuple[CutOff, ...] = (), keep: Callable[[CutOff], None] | None = None
     ) -> FlownResult:
-        with _telling():
+        with status_line("solving", lasting="set "):
             return solve_flown(
                 named.name,
                 named.diagram,
@@ -163,29 +161,6 @@ def _search_into(
             )
         raise
     return found[0]
-
-
-@contextmanager
-def _telling() -> Iterator[None]:
-    """Sets go to the error stream line by line; what happens within one to its last line."""
-    from rich.console import Console
-    from rich.markup import escape
-
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        with telling(lambda text: _note(text) if text.startswith("set ") else None):
-            yield
-        return
-    with console.status("solving") as status:
-
-        def tell(text: str) -> None:
-            if text.startswith("set "):
-                console.print(text, markup=False, highlight=False)
-            else:
-                status.update(escape(text))
-
-        with telling(tell):
-            yield
 
 
 def _sets(count: int) -> str:
