@@ -3,23 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from knotopt.cli import options
 from knotopt.cli.fly_printing import show_mission
-from knotopt.cli.options import (
-    JsonOption,
-    KnotArgument,
-    SupportsCutOption,
-    SupportsOption,
-    check_choice,
-    openness_option,
-    refuse,
-    unless_given,
-)
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import status_line, track
 from knotopt.flight.limits import ROOM, FlightLimits
@@ -35,19 +26,19 @@ if TYPE_CHECKING:
 
 
 def fly(
-    knot: KnotArgument,
-    supports: SupportsOption = "milp",
-    cut: SupportsCutOption = "best",
+    knot: options.KnotArgument,
+    supports: options.SupportsOption = "milp",
+    cut: options.SupportsCutOption = "best",
     formulation: Annotated[
         str | None,
-        unless_given(
+        options.unless_given(
             str(FLOWN.formulation),
             "Of the smallest set: span (the taut cable itself, which is what is flown) or opening "
             "(polygons through the grid's crossings).",
             metavar="NAME",
         ),
     ] = None,
-    r: Annotated[float | None, openness_option(FLOWN.openness)] = None,
+    r: Annotated[float | None, options.openness_option(FLOWN.openness)] = None,
     sim: Annotated[
         bool,
         typer.Option(
@@ -93,7 +84,7 @@ def fly(
     hover_after: Annotated[float, typer.Option(help="After it [s].")] = FlightLimits.hover_after,
     noise: Annotated[
         float | None,
-        unless_given(
+        options.unless_given(
             DisturbedFlights.noise, "With --sim: standard deviation of robots' positions [m]."
         ),
     ] = None,
@@ -103,17 +94,19 @@ def fly(
     ] = None,
     gust: Annotated[
         float | None,
-        unless_given(
+        options.unless_given(
             DisturbedFlights.gust, "With --sim: standard deviation of the wind about it [m/s]."
         ),
     ] = None,
     seed: Annotated[
         int | None,
-        unless_given(DisturbedFlights.seed, "With --sim: of the first disturbed flight.", min=0),
+        options.unless_given(
+            DisturbedFlights.seed, "With --sim: of the first disturbed flight.", min=0
+        ),
     ] = None,
     runs: Annotated[
         int | None,
-        unless_given(DisturbedFlights.runs, "With --sim: disturbed flights.", min=0),
+        options.unless_given(DisturbedFlights.runs, "With --sim: disturbed flights.", min=0),
     ] = None,
     tighten: Annotated[
         float | None,
@@ -124,7 +117,7 @@ def fly(
             show_default=False,
         ),
     ] = None,
-    as_json: JsonOption = False,
+    as_json: options.JsonOption = False,
 ) -> None:
     """Plan a flight that ties a knot, check it, fly it in simulation, and export it.
 
@@ -135,9 +128,9 @@ def fly(
     from knotopt.catalogue.lookup import find_knot
     from knotopt.supports.selection import equally_small
 
-    check_choice("--schedule", schedule, SCHEDULES)
+    options.check_choice("--schedule", schedule, SCHEDULES)
     if supports != "milp" and (r is not None or formulation is not None):
-        refuse("--formulation" if r is None else "--r", "goes with --supports milp")
+        options.refuse("--formulation" if r is None else "--r", "goes with --supports milp")
     requirements = Requirements(
         formulation or FLOWN.formulation, FLOWN.openness if r is None else r
     )
@@ -145,11 +138,12 @@ def fly(
     limits = FlightLimits(
         speed, acceleration, separation, downwash, spacing, slack, hover_before, hover_after
     )
-    given = {"noise": noise, "wind": wind, "gust": gust, "seed": seed, "runs": runs}
-    for name, value in (given | {"tighten": tighten}).items():
-        if value is not None and not sim:
-            refuse(f"--{name}", "goes with --sim")
-    disturbances = _disturbances(given)
+    disturbed = options.given(noise=noise, wind=wind, gust=gust, seed=seed, runs=runs)
+    for name in () if sim else disturbed | options.given(tighten=tighten):
+        options.refuse(f"--{name}", "goes with --sim")
+    if wind is not None:
+        disturbed["wind"] = _wind(wind)
+    disturbances = DisturbedFlights(**disturbed).disturbances()
     _check_surroundings(out, sim=sim)
 
     named = find_knot(knot)
@@ -161,21 +155,13 @@ def fly(
         raise typer.Exit(1)
 
 
-def _disturbances(given: Mapping[str, Any]) -> list[Disturbance]:
-    """Of the disturbed flights, by what is given of them."""
-    options = {name: value for name, value in given.items() if value is not None}
-    if "wind" in options:
-        options["wind"] = _wind(options["wind"])
-    return DisturbedFlights(**options).disturbances()
-
-
 def _wind(text: str) -> tuple[float, float]:
     try:
         x, y = (float(part) for part in text.split(","))
     except ValueError:
         x = y = math.nan
     if not (math.isfinite(x) and math.isfinite(y)):
-        refuse("--wind", f"is X,Y in m/s, such as 0.3,0; not {text!r}")
+        options.refuse("--wind", f"is X,Y in m/s, such as 0.3,0; not {text!r}")
     return x, y
 
 

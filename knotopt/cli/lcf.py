@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Any
 
+import typer
+
 from knotopt.cli.options import (
     JsonOption,
     KnotArgument,
-    LayeredOption,
     PlotOption,
     cut_option,
     refuse,
@@ -23,7 +24,10 @@ def lcf(
     cut: Annotated[
         str, cut_option("best (of the outer cuts), all (that are crossing-free)")
     ] = "best",
-    layered: LayeredOption = False,
+    layered: Annotated[
+        bool,
+        typer.Option("--layered", help="Also drop supports that lie inside another active region."),
+    ] = False,
     plot: PlotOption = None,
     as_json: JsonOption = False,
 ) -> None:

@@ -16,9 +16,7 @@ import typer
 from formulations.backends import BACKENDS
 from formulations.solution import BackendError, Limits
 from knotopt.errors import SolverError
-from knotopt.supports.registry import FORMULATIONS
 from knotopt.supports.requirements import Requirements
-from knotopt.supports.threading import Threading
 
 if TYPE_CHECKING:
     from knotopt.catalogue.lookup import NamedDiagram
@@ -98,10 +96,6 @@ PlotOption = Annotated[
         help="Draw a picture: .png, .pdf or .svg.",
     ),
 ]
-LayeredOption = Annotated[
-    bool,
-    typer.Option("--layered", help="Also drop supports that lie inside another active region."),
-]
 SupportsOption = Annotated[
     str,
     typer.Option(
@@ -112,22 +106,6 @@ SupportsOption = Annotated[
 ]
 SupportsCutOption = Annotated[str, cut_option("best (for those supports; a file's own)")]
 FormatOption = Annotated[PictureFormat, typer.Option("--format", help="Of the figures.")]
-FormulationOption = Annotated[
-    str,
-    typer.Option(
-        metavar="NAME",
-        help=" or ".join(f"{each.name} ({each.words})" for each in FORMULATIONS.values()) + ".",
-    ),
-]
-ThreadingOption = Annotated[
-    str | None,
-    typer.Option(
-        metavar="NAME",
-        help=f"What threads a region: {' or '.join(Threading)}; by default "
-        + ", ".join(f"{each.threading[0]} for {each.name}" for each in FORMULATIONS.values())
-        + ".",
-    ),
-]
 OpennessOption = Annotated[float | None, openness_option()]
 SolverOption = Annotated[
     str, typer.Option(metavar="NAME", help=f"{', '.join(BACKENDS)} (22 points at most).")
@@ -140,6 +118,11 @@ TimeLimitOption = Annotated[
 def refuse(option: str, why: str) -> NoReturn:
     """End with exit status 2, usage, and what is wrong with an option."""
     raise typer.BadParameter(why, param_hint=option)
+
+
+def given(**options: Any) -> dict[str, Any]:
+    """Those of the options that are given, by name."""
+    return {name: value for name, value in options.items() if value is not None}
 
 
 def check_choice(option: str, value: str, names: Iterable[str]) -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from knotopt.cli.options import refuse, run_header, unless_given
+from knotopt.cli.options import given, refuse, run_header, unless_given
 from knotopt.cli.progress import status_line
 from knotopt.cli.solve_flown_printing import flown_json
 from knotopt.rehearsal.flight_tests import FlightTests
@@ -63,15 +63,14 @@ class FlightOptions:
     def check_unused(self) -> None:
         """Without flights none of them makes sense."""
         names = {"seconds": "--physics-budget", "max_cut": "--max-cut"}
-        for field in fields(self):
-            if getattr(self, field.name) is not None:
-                refuse(names.get(field.name, f"--{field.name}"), "goes with --verify-physics")
+        for name in given(**vars(self)):
+            refuse(names.get(name, f"--{name}"), "goes with --verify-physics")
 
     def tests(self) -> FlightTests:
         """What sets are put to."""
-        names = [field.name for field in fields(FlightTests)]
-        given = {name: getattr(self, name) for name in names}
-        return FlightTests(**{name: value for name, value in given.items() if value is not None})
+        return FlightTests(
+            **given(**{each.name: getattr(self, each.name) for each in fields(FlightTests)})
+        )
 
 
 class _UnfinishedError(Exception):
