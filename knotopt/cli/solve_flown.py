@@ -6,6 +6,7 @@ import importlib.metadata
 import json
 import sys
 from dataclasses import dataclass, fields
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -97,28 +98,16 @@ def fly_sets(
     MUJOCO.require()
     tests = options.tests()
 
-    def search(
-        known: tuple[CutOff, ...] = (), keep: Callable[[CutOff], None] | None = None
-    ) -> FlownResult:
-        with status_line("solving", lasting="set "):
-            return solve_flown(
-                named.name,
-                named.diagram,
-                asked,
-                tests,
-                cuts=None if cut == "best" else [Cut.parse(cut, named.diagram.size)],
-                solver=solver,
-                limits=limits,
-                known=known,
-                on_cut_off=keep,
-            )
-
-    if options.out is None:
-        return search()
-    versions = [importlib.metadata.version(package) for package in ("knotopt", MUJOCO.package)]
-    settings = ["verify-physics", repr(asked), cut, tests.noise, tests.trials, versions]
-    header = run_header("solve", settings, [named])
-    return _search_into(options.out, header, named, search)
+    cuts = None if cut == "best" else [Cut.parse(cut, named.diagram.size)]
+    knot = named.name, named.diagram
+    search = partial(solve_flown, *knot, asked, tests, cuts=cuts, solver=solver, limits=limits)
+    with status_line("solving", lasting="set "):
+        if options.out is None:
+            return search()
+        versions = [importlib.metadata.version(each) for each in ("knotopt", MUJOCO.package)]
+        settings = ["verify-physics", repr(asked), cut, tests.noise, tests.trials, versions]
+        header = run_header("solve", settings, [named])
+        return _search_into(options.out, header, named, search)
 
 
 def _search_into(
@@ -146,7 +135,7 @@ def _search_into(
                 lines.write(json.dumps(each.to_json()))
                 done += 1
 
-            found.append(search(known, keep))
+            found.append(search(known=known, on_cut_off=keep))
             if found[0].status in (FlownStatus.BUDGET, FlownStatus.UNKNOWN):
                 raise _UnfinishedError
     except _UnfinishedError:
