@@ -9,7 +9,7 @@ import typer
 
 from formulations.backends import BACKENDS
 from knotopt.atlas.schema import Settings
-from knotopt.cli.options import CatalogueOption, OpennessOption, refuse, unless_given
+from knotopt.cli.options import CatalogueOption, OpennessOption, given, refuse, unless_given
 from knotopt.cli.printing import print_facts, print_written
 from knotopt.cli.progress import progress_bar
 from knotopt.supports.requirements import Requirements
@@ -100,9 +100,9 @@ def atlas(
         span,
         paths,
         check,
-        () if solvers is None else _solvers(solvers),
-        Settings.solver_limit if solver_limit is None else solver_limit,
-        physics,
+        physics=physics,
+        solvers=() if solvers is None else _solvers(solvers),
+        **given(solver_limit=solver_limit),
     )
     engine = _engine(jobs, scheduler)
     done = 0

@@ -6,13 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from knotopt.cli.options import (
-    JsonOption,
-    KnotArgument,
-    PlotOption,
-    cut_option,
-    refuse,
-)
+from knotopt.cli import options
 from knotopt.cli.printing import print_json, print_table, print_written
 
 if TYPE_CHECKING:
@@ -20,16 +14,16 @@ if TYPE_CHECKING:
 
 
 def lcf(
-    knot: KnotArgument,
+    knot: options.KnotArgument,
     cut: Annotated[
-        str, cut_option("best (of the outer cuts), all (that are crossing-free)")
+        str, options.cut_option("best (of the outer cuts), all (that are crossing-free)")
     ] = "best",
     layered: Annotated[
         bool,
         typer.Option("--layered", help="Also drop supports that lie inside another active region."),
     ] = False,
-    plot: PlotOption = None,
-    as_json: JsonOption = False,
+    plot: options.PlotOption = None,
+    as_json: options.JsonOption = False,
 ) -> None:
     """Select support robots by the Loop Consistency Filter (LCF).
 
@@ -43,7 +37,7 @@ def lcf(
     named = find_knot(knot)
     if cut == "all":
         if plot is not None:
-            refuse("--plot", "draws one cut: give --cut best or a cut's name")
+            options.refuse("--plot", "draws one cut: give --cut best or a cut's name")
         cuts = crossing_free_cuts(named.diagram)
         by_cut = lcf_by_cut(named.diagram, layered=layered, cuts=cuts)
         _print_cuts(named.name, list(by_cut.values()), as_json=as_json)

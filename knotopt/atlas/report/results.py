@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 
-from knotopt.arrays import BoolArray, FloatArray, IntArray
+from knotopt.arrays import BoolArray, FloatArray
 from knotopt.atlas.schema import File, KnotRow, Manifest
 from knotopt.atlas.store import read_manifest, read_rows
 from knotopt.cable.cut import OUTER_CUTS
@@ -103,16 +103,6 @@ class Results:
         """Where the smallest set of `opening` is proven, shape (K, 8)."""
         proven: BoolArray = self.cuts("opening_bound") == self.cuts("opening_robots")
         return proven
-
-    @cached_property
-    def crossing_numbers(self) -> dict[int | None, IntArray]:
-        """Indices of the knots of each crossing number, in order; None where no table says it."""
-        numbers = [knot.crossing_number for knot in self.knots]
-        order = sorted({n for n in numbers if n is not None})
-        return {
-            each: np.flatnonzero([n == each for n in numbers])
-            for each in (*order, *([None] if None in numbers else []))
-        }
 
     @property
     def size(self) -> str:
