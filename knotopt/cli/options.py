@@ -6,7 +6,7 @@ An option's default is that of the dataclass that it fills, read from there.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn
@@ -15,7 +15,7 @@ import typer
 
 from formulations.backends import BACKENDS
 from formulations.solution import BackendError, Limits
-from knotopt.errors import SolverError
+from knotopt.errors import OutputError, SolverError
 from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
@@ -129,6 +129,12 @@ def check_choice(option: str, value: str, names: Iterable[str]) -> None:
     """Refuse what is not one of the names."""
     if value not in (listed := [*names]):
         refuse(option, f"is one of {', '.join(listed)}")
+
+
+def check_suffix(path: Path | None, what: str, suffixes: Collection[str]) -> None:
+    """A wrong name of a file to be written is refused before anything is computed."""
+    if path is not None and path.suffix.lower() not in suffixes:
+        raise OutputError(f"{path}: {what} written as {', '.join(suffixes)}")
 
 
 def find_knots(names: list[str] | None, *, catalogue: bool) -> list[NamedDiagram]:

@@ -96,7 +96,9 @@ def path(
     from knotopt.supports.selection import choose_supports
 
     options.check_choice("--method", method, METHODS)
-    _check_out(out, method)
+    options.check_suffix(out, "curves are", (".csv",))
+    if out is not None and method == "both":
+        options.refuse("--out", "writes one curve: give --method nlp or relaxation")
     if supports != "milp" and (r is not None or formulation != Requirements.formulation):
         options.refuse("--formulation" if r is None else "--r", "goes with --supports milp")
     height = {"drone_height": drone_height, "downwash": downwash}
@@ -135,16 +137,6 @@ def _world(step: float | None, room: dict[str, float], gap: float | None) -> Wor
     if step is None and room:
         options.refuse("--" + next(iter(room)).replace("_", "-"), "goes with --step")
     return None if step is None else World(step, **room)
-
-
-def _check_out(out: Path | None, method: str) -> None:
-    """A wrong file name is refused before anything is solved."""
-    from knotopt.errors import OutputError
-
-    if out is not None and out.suffix.lower() != ".csv":
-        raise OutputError(f"{out}: curves are written as .csv")
-    if out is not None and method == "both":
-        options.refuse("--out", "writes one curve: give --method nlp or relaxation")
 
 
 def _write(

@@ -125,6 +125,7 @@ def solve(
 
     Example: knotopt solve '7 Var2' --formulation span --plot supports.png
     """
+    from formulations.export import FORMATS
     from knotopt.cable.cut import crossing_free_cuts
     from knotopt.catalogue.lookup import find_knot
     from knotopt.supports.minimal import all_minimal
@@ -145,11 +146,9 @@ def solve(
     limits = options.solver_limits(time_limit, gap, threads, seed)
     if count is not None and not every:
         options.refuse("--count", "goes with --all")
-    _check_options(cut, diagrams, {"--plot": plot, "--export": export, "--all": every})
-    if cut in ("best", "all") and (forbid or force):
-        why = "turning points are numbered along one cable: give --cut L+ or another"
-        options.refuse("--forbid, --force", why)
-    _check_export(export)
+    about_one_cut = {"--plot": plot, "--export": export, "--all": every}
+    _check_options(cut, diagrams, about_one_cut, numbers=bool(forbid or force))
+    options.check_suffix(export, "programs are", FORMATS)
     flights = FlightOptions(noise, trials, physics_budget, max_cut, out)
     if verify_physics:
         if cut == "all":
@@ -188,12 +187,17 @@ def solve(
         raise typer.Exit(1)
 
 
-def _check_options(cut: str, diagrams: int, about_one_cut: dict[str, Any]) -> None:
+def _check_options(
+    cut: str, diagrams: int, about_one_cut: dict[str, Any], *, numbers: bool
+) -> None:
     """Options that exclude each other are refused."""
     if cut == "all":
         _refuse_any(about_one_cut, "is about one cut: give --cut best or a cut's name")
     if diagrams > 1 and cut != "best":
         options.refuse("--diagrams", "goes with --cut best")
+    if cut in ("best", "all") and numbers:
+        why = "turning points are numbered along one cable: give --cut L+ or another"
+        options.refuse("--forbid, --force", why)
 
 
 def _refuse_any(given: dict[str, Any], why: str) -> None:
@@ -201,15 +205,6 @@ def _refuse_any(given: dict[str, Any], why: str) -> None:
     for option, value in given.items():
         if value:
             options.refuse(option, why)
-
-
-def _check_export(export: Path | None) -> None:
-    """A wrong file name is refused before anything is solved."""
-    from formulations.export import FORMATS
-    from knotopt.errors import OutputError
-
-    if export is not None and export.suffix.lower() not in FORMATS:
-        raise OutputError(f"{export}: programs are written as {', '.join(FORMATS)}")
 
 
 def _search(

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from knotopt.cli.options import given, refuse, run_header, unless_given
+from knotopt.cli.options import check_suffix, given, refuse, run_header, unless_given
 from knotopt.cli.progress import status_line
 from knotopt.cli.solve_flown_printing import flown_json
 from knotopt.rehearsal.flight_tests import FlightTests
@@ -89,12 +89,10 @@ def fly_sets(
 ) -> FlownResult:
     """Fly sets until one ties the knot; write the answer to the file asked for."""
     from knotopt.cable.cut import Cut
-    from knotopt.errors import OutputError
     from knotopt.rehearsal.cut_off import solve_flown
     from knotopt.sim.simulators import MUJOCO
 
-    if options.out is not None and options.out.suffix.lower() != ".json":
-        raise OutputError(f"{options.out}: the answer is written as .json")
+    check_suffix(options.out, "the answer is", (".json",))
     MUJOCO.require()
     tests = options.tests()
 
