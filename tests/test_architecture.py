@@ -45,7 +45,7 @@ ALLOWED: Mapping[str, str] = {
     "mission": "errors verify supports flight sim rehearsal export viewer plot",
     "tables": "formulations files document diagram cable catalogue supports path plot",
     "atlas": "formulations knotopt errors arrays files document diagram cable catalogue verify "
-    "supports path flight sim plot tables",
+    "supports flight sim plot tables",
     "api": "formulations errors diagram cable catalogue supports path flight mission",
     "cli": "formulations knotopt errors files document diagram cable catalogue topology verify "
     "supports path flight sim rehearsal plot mission tables atlas",

@@ -7,16 +7,7 @@ formulation `span` (empty unless asked for). "Open" is by `opening` in the mode 
 
 from __future__ import annotations
 
-from knotopt.atlas.schema import (
-    ATLAS,
-    FLIGHT_TIMES,
-    FLIGHTS,
-    KNOTS,
-    PATHS,
-    SOLVER_TIMES,
-    SOLVERS,
-    TIMES,
-)
+from knotopt.atlas.schema import File
 from knotopt.document.columns import Column
 from knotopt.tables.methods import LAYERED, LCF, PROGRAMS, USUAL_PROGRAMS, columns_of
 
@@ -52,7 +43,7 @@ FLOWN = (
 """What came of one set in simulation; empty: it was not planned."""
 
 FILES: dict[str, tuple[Column, ...]] = {
-    KNOTS: (
+    File.KNOTS: (
         NUMBER,
         KNOT,
         Column("source", str, "where the diagram comes from, in words"),
@@ -65,7 +56,7 @@ FILES: dict[str, tuple[Column, ...]] = {
         Column("determinant", int, "of the knot, where a table says it", True),
         Column("signature", int, "of the knot in KnotInfo's sign, where a table says it", True),
     ),
-    ATLAS: (
+    File.ATLAS: (
         NUMBER,
         KNOT,
         CROSSING_NUMBER,
@@ -82,7 +73,7 @@ FILES: dict[str, tuple[Column, ...]] = {
             "checked", bool, "whether the checkers find the sets as said; empty: not asked", True
         ),
     ),
-    TIMES: (
+    File.TIMES: (
         *CUT_KEYS,
         Column("lcf_seconds", float, "LCF and its layered set [s]"),
         *columns_of(PROGRAMS, "seconds", "solve_seconds"),
@@ -91,7 +82,7 @@ FILES: dict[str, tuple[Column, ...]] = {
         Column("worker_mib", float, "largest memory of the worker's process so far [MiB]"),
     ),
     # LCF before the smallest open set, relaxation before program.
-    PATHS: (
+    File.PATHS: (
         *CUT_KEYS,
         Column("supports", str, "whose supports: lcf, or opening (turning-point)"),
         Column("method", str, "relaxation (eq. 11-13) or nlp"),
@@ -109,7 +100,7 @@ FILES: dict[str, tuple[Column, ...]] = {
         Column("blocked", str, "which limit the program could not meet, in words"),
     ),
     # One program by one solver, the solvers in the order asked for.
-    SOLVERS: (
+    File.SOLVERS: (
         *_SOLVER_KEYS,
         Column("status", str, "as of the atlas; refused: it does not take this program"),
         Column("said", str, "the solver's own words"),
@@ -122,19 +113,19 @@ FILES: dict[str, tuple[Column, ...]] = {
             "meets_definition", bool, "whether the checker finds it open; empty: not asked", True
         ),
     ),
-    SOLVER_TIMES: (
+    File.SOLVER_TIMES: (
         *_SOLVER_KEYS,
         Column("seconds", float, "build and solve [s]"),
         Column("solve_seconds", float, "the solver alone [s]", True),
     ),
     # LCF's set, then the smallest ones, each flown once and undisturbed.
-    FLIGHTS: (
+    File.FLIGHTS: (
         *_FLIGHT_KEYS,
         ROBOTS,
         *columns_of(USUAL_PROGRAMS, "open"),
         *FLOWN,
     ),
-    FLIGHT_TIMES: (
+    File.FLIGHT_TIMES: (
         *_FLIGHT_KEYS,
         Column("planning_seconds", float, "0 where another set of the cut is the same [s]"),
         Column("simulation_seconds", float, "with judging; 0 likewise, or without a plan [s]"),

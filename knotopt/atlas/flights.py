@@ -48,12 +48,7 @@ def fly_sets(
         seconds = 0.0, 0.0
         if supports not in flown:
             flown[supports], seconds = fly_set(knot.knot, plain.cable, supports)
-        keys = {
-            "number": knot.number,
-            "knot": knot.knot,
-            "cut": str(plain.cable.cut),
-            "supports": name,
-        }
+        keys = {**knot.keys(plain.cable.cut), "supports": name}
         chosen = GivenSupports(plain.cable, supports)
         cells = {**keys, "robots": chosen.robots, **_cells(flown[supports])}
         for method in USUAL_PROGRAMS:

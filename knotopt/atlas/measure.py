@@ -13,32 +13,23 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
+from itertools import chain
 
 from knotopt import __version__
 from knotopt.atlas.columns import FILES
 from knotopt.atlas.programs import SOLVER, Solved, is_asked, solve
-from knotopt.atlas.schema import (
-    ATLAS,
-    FLIGHT_TIMES,
-    FLIGHTS,
-    PATHS,
-    SOLVER_TIMES,
-    SOLVERS,
-    TIMES,
-    KnotRow,
-    Settings,
-)
+from knotopt.atlas.schema import File, KnotRow, Settings
 from knotopt.atlas.solvers import PACKAGES, compare_solvers
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import outer_cuts
-from knotopt.document.columns import Column, Row, names
-from knotopt.path.measures import both_methods, measure
+from knotopt.document.columns import Row, names
 from knotopt.sim.simulators import MUJOCO
 from knotopt.supports.lcf import LcfResult, lcf
 from knotopt.supports.minimal import find_backend
 from knotopt.supports.selection import GivenSupports
 from knotopt.supports.support_set import SupportSet
+from knotopt.tables.comparison import path_rows
 from knotopt.tables.methods import (
     HEURISTICS,
     JUDGES,
@@ -72,17 +63,14 @@ class KnotResult:
 
 def versions(settings: Settings) -> dict[str, str]:
     """Versions of what the results depend on, in this process."""
-    packages = [*_PACKAGES]
-    if settings.paths:
-        packages += _PATH_PACKAGES
-    for solver in settings.solvers:
-        packages += PACKAGES[solver]
-    if settings.physics:
-        packages += _FLIGHT_PACKAGES
-    return {
-        "knotopt": __version__,
-        **{package: importlib.metadata.version(package) for package in packages},
-    }
+    packages = [
+        *_PACKAGES,
+        *(_PATH_PACKAGES if settings.paths else ()),
+        *chain.from_iterable(PACKAGES[solver] for solver in settings.solvers),
+        *(_FLIGHT_PACKAGES if settings.physics else ()),
+    ]
+    there = {package: importlib.metadata.version(package) for package in packages}
+    return {"knotopt": __version__, **there}
 
 
 def check_installed(settings: Settings) -> None:
@@ -193,19 +181,19 @@ def _measure_cut(
     usual = {
         method: program for method in USUAL_PROGRAMS if (program := solved[method]) is not None
     }
-    keys: Row = {"number": knot.number, "knot": knot.knot, "cut": str(cable.cut)}
+    keys = knot.keys(cable.cut)
     more: dict[str, list[Row]] = {}
     if settings.paths:
         with clock("paths"):
-            more[PATHS] = _paths(keys, plain, usual[OPENING])
+            more[File.PATHS] = _paths(keys, plain, usual[OPENING])
     if settings.solvers:
-        more[SOLVERS], more[SOLVER_TIMES] = compare_solvers(
+        more[File.SOLVERS], more[File.SOLVER_TIMES] = compare_solvers(
             knot, plain.cable, usual, settings, checked=checked
         )
     if settings.physics:
         from knotopt.atlas.flights import fly_sets
 
-        more[FLIGHTS], more[FLIGHT_TIMES] = fly_sets(knot, plain, usual)
+        more[File.FLIGHTS], more[File.FLIGHT_TIMES] = fly_sets(knot, plain, usual)
     row: Row = {
         **keys,
         "crossing_number": knot.crossing_number,
@@ -230,7 +218,7 @@ def _measure_cut(
             )
         elif is_asked(method, settings):
             row |= method.cells(status="refused")
-    row, times = (_whole(each, FILES[name]) for each, name in ((row, ATLAS), (times, TIMES)))
+    row, times = _whole(row, File.ATLAS), _whole(times, File.TIMES)
     if checked:
         with clock("check"):
             row["checked"] = agrees_with_definition(cable, row, settings)
@@ -239,20 +227,16 @@ def _measure_cut(
     return row, times, more
 
 
-def _whole(row: Row, columns: tuple[Column, ...]) -> Row:
-    """The row in the columns' order, with empty cells where it has none."""
-    return {name: row.get(name) for name in names(columns)}
+def _whole(row: Row, file: File) -> Row:
+    """The row in the order of the file's columns, with empty cells where it has none."""
+    return {name: row.get(name) for name in names(FILES[file])}
 
 
 def _paths(keys: Row, plain: LcfResult, opening: Solved) -> list[Row]:
     sets: dict[str, SupportSet] = {LCF.key: plain}
     if opening.supports is not None:
         sets[OPENING.key] = GivenSupports(plain.cable, opening.supports)
-    rows = [
-        {**keys, **asdict(measure(path, name))}
-        for name, chosen in sets.items()
-        for path in both_methods(chosen)
-    ]
+    rows = [keys | row for row in path_rows(sets)]
     for row in rows:
         del row["milliseconds"]  # differs from run to run
     return rows

@@ -33,7 +33,7 @@ def run_atlas(
     knots: tuple[KnotRow, ...],
     settings: Settings,
     engine: Engine,
-    progress: Callable[[Progress], None] | None = None,
+    progress: Callable[[Progress], None] = lambda _: None,
 ) -> Progress:
     """Measure every knot of a list; what a folder has of the same run is not measured again.
 
@@ -66,8 +66,8 @@ def run_atlas(
     check_installed(settings)
     manifest = Manifest(settings, versions(settings), len(knots), list_hash(knots))
     with opened(folder, manifest, knots) as run:
-        before = len(knots) if run.is_complete else len(run.done)
         left = [] if run.is_complete else [knot for knot in knots if knot.number not in run.done]
+        before = len(knots) - len(left)
         state = Progress(len(knots), before, 0)
         fresh: list[KnotResult] = []
 
@@ -78,8 +78,7 @@ def run_atlas(
 
         began = written = time.monotonic()
         logger.info("%d of %d knots are measured already", before, len(knots))
-        if progress is not None:
-            progress(state)
+        progress(state)
         try:
             for result in engine.map(partial(measure_knot, settings=settings), left):
                 _check_versions(result, manifest)
@@ -92,8 +91,7 @@ def run_atlas(
                     before + state.measured,
                     len(knots),
                 )
-                if progress is not None:
-                    progress(state)
+                progress(state)
                 now = time.monotonic()
                 if now - written > max(SHORTEST, SHARE * (now - began)):
                     keep()

@@ -15,6 +15,7 @@ import hashlib
 import json
 import math
 from dataclasses import asdict, dataclass
+from enum import StrEnum
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -22,19 +23,25 @@ from typing import TYPE_CHECKING, Any
 from knotopt.errors import RequirementError
 
 if TYPE_CHECKING:  # options of the command line are read from `Settings`, at once
+    from knotopt.cable.cut import Cut
     from knotopt.diagram.grid import GridDiagram
+    from knotopt.document.columns import Row
 
 FORMAT = "knotopt atlas 1"
-MANIFEST, KNOTS, ATLAS, TIMES, PATHS, PARTS = (
-    "manifest.json",
-    "knots.parquet",
-    "atlas.parquet",
-    "times.parquet",
-    "paths.parquet",
-    "parts",
-)
-SOLVERS, SOLVER_TIMES = "solvers.parquet", "solver_times.parquet"
-FLIGHTS, FLIGHT_TIMES = "flights.parquet", "flight_times.parquet"
+MANIFEST, PARTS = "manifest.json", "parts"
+
+
+class File(StrEnum):
+    """The Parquet files of a run."""
+
+    KNOTS = "knots.parquet"
+    ATLAS = "atlas.parquet"
+    TIMES = "times.parquet"
+    PATHS = "paths.parquet"
+    SOLVERS = "solvers.parquet"
+    SOLVER_TIMES = "solver_times.parquet"
+    FLIGHTS = "flights.parquet"
+    FLIGHT_TIMES = "flight_times.parquet"
 
 
 @dataclass(frozen=True)
@@ -80,12 +87,12 @@ class Settings:
             )
 
     @property
-    def requested(self) -> tuple[str, ...]:
+    def requested(self) -> tuple[File, ...]:
         """The files that a run has on request."""
         return (
-            *((PATHS,) if self.paths else ()),
-            *((SOLVERS, SOLVER_TIMES) if self.solvers else ()),
-            *((FLIGHTS, FLIGHT_TIMES) if self.physics else ()),
+            *((File.PATHS,) if self.paths else ()),
+            *((File.SOLVERS, File.SOLVER_TIMES) if self.solvers else ()),
+            *((File.FLIGHTS, File.FLIGHT_TIMES) if self.physics else ()),
         )
 
     @property
@@ -129,6 +136,10 @@ class KnotRow:
     alternating: bool | None
     determinant: int | None
     signature: int | None
+
+    def keys(self, cut: Cut) -> Row:
+        """What says in a file which knot and cut a row is of."""
+        return {"number": self.number, "knot": self.knot, "cut": str(cut)}
 
     @property
     def diagram(self) -> GridDiagram:

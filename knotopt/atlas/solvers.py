@@ -68,13 +68,7 @@ def compare_solvers(
                 satisfies = not program.instance.violated(program.instance.complete(chosen))
                 if checked:
                     meets = method.is_met(cable, chosen[1:-1], settings.r)
-            keys = {
-                "number": knot.number,
-                "knot": knot.knot,
-                "cut": str(cable.cut),
-                "formulation": method.key,
-                "solver": solver,
-            }
+            keys = {**knot.keys(cable.cut), "formulation": method.key, "solver": solver}
             rows.append(
                 {
                     **keys,

@@ -19,15 +19,7 @@ import numpy as np
 
 from knotopt.atlas.columns import CUT_KEYS, FILES
 from knotopt.atlas.measure import KnotResult
-from knotopt.atlas.schema import (
-    ATLAS,
-    KNOTS,
-    MANIFEST,
-    PARTS,
-    TIMES,
-    KnotRow,
-    Manifest,
-)
+from knotopt.atlas.schema import MANIFEST, PARTS, File, KnotRow, Manifest
 from knotopt.cable.cut import OUTER_CUTS
 from knotopt.document.columns import Row, check_rows, names
 from knotopt.errors import OutputError, require_extra
@@ -62,7 +54,7 @@ class Run:
 
     def __init__(self, folder: Path, manifest: Manifest) -> None:
         self.folder, self.manifest = folder, manifest
-        self.is_complete = (folder / ATLAS).exists()
+        self.is_complete = (folder / File.ATLAS).exists()
         self.done: set[int] = set()
         self._parts = sorted((folder / PARTS).glob("part-*.parquet"))
         for part in () if self.is_complete else self._parts:
@@ -84,7 +76,7 @@ class Run:
         """
         rows: list[Row] = []
         for result in results:
-            listed = {ATLAS: result.rows, TIMES: result.times, **result.requested}
+            listed = {File.ATLAS: result.rows, File.TIMES: result.times, **result.requested}
             for name, found in listed.items():
                 check_rows(FILES[name], found)
             for row, times in zip(result.rows, result.times, strict=True):
@@ -116,8 +108,8 @@ class Run:
                 found = table[_list_of(name)].combine_chunks().flatten()
                 rows = pa.Table.from_batches([pa.RecordBatch.from_struct_array(found)])
                 self._write(name, rows)
-            self._write(TIMES, table)
-            self._write(ATLAS, table)  # last: it says that the run is complete
+            self._write(File.TIMES, table)
+            self._write(File.ATLAS, table)  # last: it says that the run is complete
             self.is_complete = True
         shutil.rmtree(self.folder / PARTS, ignore_errors=True)
         for torn in self.folder.glob(".*.tmp"):
@@ -153,9 +145,9 @@ def opened(folder: Path, manifest: Manifest, knots: Iterable[KnotRow]) -> Iterat
     """
     if not folder.exists() or (folder.is_dir() and not any(folder.iterdir())):
         listed = pa.Table.from_pylist(
-            [asdict(knot) for knot in knots], arrow_schema(KNOTS, manifest)
+            [asdict(knot) for knot in knots], arrow_schema(File.KNOTS, manifest)
         )
-        write_folder(folder, {MANIFEST: manifest.text, KNOTS: _to_bytes(listed)})
+        write_folder(folder, {MANIFEST: manifest.text, File.KNOTS: _to_bytes(listed)})
     _compare(folder, read_manifest(folder), manifest)
     handle = os.open(folder, os.O_RDONLY)
     try:
@@ -198,7 +190,7 @@ def read_rows(folder: Path, name: str) -> pa.Table:
         The run is not complete, or the file is damaged or of another run.
     """
     manifest = read_manifest(folder)
-    if not (folder / ATLAS).exists():
+    if not (folder / File.ATLAS).exists():
         raise OutputError(f"{folder} is not complete: run `knotopt atlas` again to go on with it")
     if not (folder / name).exists():
         raise OutputError(f"{folder} has no {name}: the run was not asked for it")
@@ -219,8 +211,8 @@ def arrow_schema(name: str, manifest: Manifest) -> pa.Schema:
 
 
 def _part_schema(manifest: Manifest) -> pa.Schema:
-    schema = arrow_schema(ATLAS, manifest)
-    for column in arrow_schema(TIMES, manifest):
+    schema = arrow_schema(File.ATLAS, manifest)
+    for column in arrow_schema(File.TIMES, manifest):
         if column.name not in names(CUT_KEYS):
             schema = schema.append(column)
     for name in manifest.settings.requested:
@@ -256,26 +248,16 @@ def _check_origin(path: Path, table: pa.Table, manifest: Manifest) -> None:
 
 def _compare(folder: Path, begun: Manifest, now: Manifest) -> None:
     """Raise if a folder's run is not the one asked for."""
-    otherwise = "name another folder"
-    for name, value in asdict(now.settings).items():
-        there = getattr(begun.settings, name)
-        if there != value:
-            raise OutputError(
-                f"{folder} was begun with {name} = {_said(there)}, not {_said(value)}: "
-                f"finish it with that, or {otherwise}"
-            )
-    for package, version in now.versions.items():
-        there = begun.versions.get(package, "none")
-        if there != version:
-            raise OutputError(
-                f"{folder} was begun with {package} {there}, here is {version}: "
-                f"finish it with that one, or {otherwise}"
-            )
-    if begun != now:
-        raise OutputError(
-            f"{folder} was begun with another list, of {begun.knots} knots: "
-            f"finish it with that one, or {otherwise}"
-        )
+    if begun == now:
+        return
+    words = f"another list, of {begun.knots} knots: finish it with that one"
+    for package, version in reversed(now.versions.items()):
+        if (there := begun.versions.get(package, "none")) != version:
+            words = f"{package} {there}, here is {version}: finish it with that one"
+    for name, value in reversed(asdict(now.settings).items()):
+        if (there := getattr(begun.settings, name)) != value:
+            words = f"{name} = {_said(there)}, not {_said(value)}: finish it with that"
+    raise OutputError(f"{folder} was begun with {words}, or name another folder")
 
 
 def _said(value: object) -> str:

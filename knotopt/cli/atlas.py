@@ -9,7 +9,7 @@ import typer
 
 from formulations.backends import BACKENDS
 from knotopt.atlas.schema import Settings
-from knotopt.cli.options import CatalogueOption, OpennessOption, refuse, unless_given
+from knotopt.cli.options import CatalogueOption, OpennessOption, given, refuse, unless_given
 from knotopt.cli.printing import print_facts, print_written
 from knotopt.cli.progress import progress_bar
 from knotopt.supports.requirements import Requirements
@@ -100,9 +100,9 @@ def atlas(
         span,
         paths,
         check,
-        () if solvers is None else _solvers(solvers),
-        Settings.solver_limit if solver_limit is None else solver_limit,
-        physics,
+        physics=physics,
+        solvers=() if solvers is None else _solvers(solvers),
+        **given(solver_limit=solver_limit),
     )
     engine = _engine(jobs, scheduler)
     done = 0
@@ -164,13 +164,13 @@ def _engine(jobs: int | None, scheduler: str | None) -> Engine:
 
 def _requested_facts(run_dir: Path) -> list[tuple[str, object]]:
     """How many programs each solver proved, and how many flights of each set tied the knot."""
-    from knotopt.atlas.schema import FLIGHTS, SOLVERS
+    from knotopt.atlas.schema import File
     from knotopt.atlas.store import read_manifest, read_rows
 
     facts: list[tuple[str, object]] = []
     for name, group, held, words in (
-        (SOLVERS, "solver", "proven", "programs proven"),
-        (FLIGHTS, "supports", "tied", "flights that tie"),
+        (File.SOLVERS, "solver", "proven", "programs proven"),
+        (File.FLIGHTS, "supports", "tied", "flights that tie"),
     ):
         if name not in read_manifest(run_dir).settings.requested:
             continue
@@ -186,11 +186,11 @@ def _summarise(run_dir: Path) -> None:
     """What the atlas says on average; an error if a checker contradicts it."""
     import pyarrow.compute as pc
 
-    from knotopt.atlas.schema import ATLAS
+    from knotopt.atlas.schema import File
     from knotopt.atlas.store import read_rows
     from knotopt.errors import SolverError
 
-    table = read_rows(run_dir, ATLAS)
+    table = read_rows(run_dir, File.ATLAS)
     rows = table.num_rows
 
     def mean(column: str) -> str:
@@ -219,8 +219,8 @@ def _summarise(run_dir: Path) -> None:
             *_requested_facts(run_dir),
         ]
     )
-    print_written(run_dir / ATLAS)
+    print_written(run_dir / File.ATLAS)
     if wrong:
         raise SolverError(
-            f"{wrong} rows of {run_dir / ATLAS} contradict the definitions: column checked"
+            f"{wrong} rows of {run_dir / File.ATLAS} contradict the definitions: column checked"
         )

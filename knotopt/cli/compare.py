@@ -8,20 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from knotopt.cli.documents import print_tables
-from knotopt.cli.options import (
-    CatalogueOption,
-    JsonOption,
-    KnotsArgument,
-    OpennessOption,
-    SolverOption,
-    TimeLimitOption,
-    cut_option,
-    find_knots,
-    run_header,
-    solver_limits,
-)
-from knotopt.cli.printing import print_json, print_written
+from knotopt.cli import options
+from knotopt.cli.printing import print_json, print_tables, print_written
 from knotopt.cli.progress import track
 
 if TYPE_CHECKING:
@@ -30,17 +18,19 @@ if TYPE_CHECKING:
 
 
 def compare(
-    knots: KnotsArgument = None,
-    catalogue: CatalogueOption = False,
-    cut: Annotated[str, cut_option("best (each method's own of the crossing-free cuts)")] = "best",
-    r: OpennessOption = None,
-    solver: SolverOption = "cp-sat",
-    time_limit: TimeLimitOption = None,
+    knots: options.KnotsArgument = None,
+    catalogue: options.CatalogueOption = False,
+    cut: Annotated[
+        str, options.cut_option("best (each method's own of the crossing-free cuts)")
+    ] = "best",
+    r: options.OpennessOption = None,
+    solver: options.SolverOption = "cp-sat",
+    time_limit: options.TimeLimitOption = None,
     out: Annotated[
         Path | None,
         typer.Option(metavar="FILE", help="Write the table: .csv, .md or .tex (booktabs)."),
     ] = None,
-    as_json: JsonOption = False,
+    as_json: options.JsonOption = False,
 ) -> None:
     """Compare baseline, LCF, LCF layered, opening and span, and paths by both methods.
 
@@ -52,9 +42,9 @@ def compare(
     from knotopt.files import resumable_lines
     from knotopt.tables import comparison
 
-    found = find_knots(knots, catalogue=catalogue)
+    found = options.find_knots(knots, catalogue=catalogue)
     write = None if out is None else writer_for(out)
-    limits = solver_limits(time_limit)
+    limits = options.solver_limits(time_limit)
 
     def compare_one(named: NamedDiagram) -> Row:
         return comparison.compare(
@@ -70,7 +60,7 @@ def compare(
     if out is None or write is None:
         rows = [compare_one(named) for named in track(found, "knots", len(found))]
     else:
-        header = run_header("compare", [cut, r, solver, time_limit], found)
+        header = options.run_header("compare", [cut, r, solver, time_limit], found)
         with resumable_lines(
             out, header, lambda lines: write(comparison.tabulated(list(map(json.loads, lines))))
         ) as lines:
@@ -82,5 +72,4 @@ def compare(
         print_json(rows)
         return
     print_tables(comparison.tabulated(rows).document)
-    if out is not None:
-        print_written(out)
+    print_written(out)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict, astuple
+
 import typer
 
 from knotopt.cli.options import JsonOption
@@ -49,33 +51,16 @@ def doctor(as_json: JsonOption = False) -> None:
 
     versions = {"python": platform.python_version()} | {name: version(name) for name in PACKAGES}
     needed = {"SCIP (cvxpy)": "scip", "RC2 and CaDiCaL (pysat)": "sat"}
-    there = [
-        name
-        for name in PROBES
-        if name not in needed or version(EXTRAS[needed[name]]) != "not installed"
-    ]
-    solvers = probe_solvers(there)
-    extras = {
-        extra: version(package)
-        if version(package) != "not installed"
-        else f"not installed: {install_line(extra)}"
-        for extra, package in EXTRAS.items()
-    }
+    extras = {extra: version(package) for extra, package in EXTRAS.items()}
+    missing = {extra for extra, found in extras.items() if found == "not installed"}
+    extras |= {extra: f"not installed: {install_line(extra)}" for extra in missing}
+    solvers = probe_solvers([name for name in PROBES if needed.get(name) not in missing])
     if as_json:
-        print_json(
-            {
-                "versions": versions,
-                "solvers": [
-                    {"solver": p.solver, "works": p.works, "message": p.message} for p in solvers
-                ],
-                "extras": extras,
-            }
-        )
+        probes = [asdict(probe) for probe in solvers]
+        print_json({"versions": versions, "solvers": probes, "extras": extras})
     else:
         print_table(("package", "version"), versions.items())
-        print_table(
-            ("solver", "works", "message"), ((p.solver, p.works, p.message) for p in solvers)
-        )
+        print_table(("solver", "works", "message"), map(astuple, solvers))
         print_table(("extra", "state"), extras.items())
     if not all(probe.works for probe in solvers):
         raise typer.Exit(1)

@@ -16,9 +16,7 @@ LEGEND = f"{SUPPORT} support robot  {TAIL} lifting robot p1  {LEADER} lifting ro
 def print_supports(title: str, chosen: SupportSet) -> None:
     """Print a cable with its robots, what they are, and how many."""
     print(draw_text(chosen.cable, chosen.supports))
-    print(
-        f"\n{SUPPORT} support robot  {TAIL} lifting robot p1  {LEADER} lifting robot pn, the leader"
-    )
+    print(f"\n{LEGEND}")
     print(
         f"\n{title}, cut {chosen.cable.cut}: {chosen.robots} robots instead of {chosen.baseline} "
         f"({chosen.reduction_percent} % fewer)"

@@ -3,27 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from knotopt.cli import options
 from knotopt.cli.fly_printing import show_mission
-from knotopt.cli.logs import telling
-from knotopt.cli.options import (
-    JsonOption,
-    KnotArgument,
-    SupportsCutOption,
-    SupportsOption,
-    check_choice,
-    openness_option,
-    refuse,
-    unless_given,
-)
 from knotopt.cli.printing import print_json, print_written
-from knotopt.cli.progress import track
+from knotopt.cli.progress import status_line, track
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.request import FLOWN, SCHEDULES, FlightRequest
 from knotopt.mission.disturbed import DisturbedFlights
@@ -37,19 +26,19 @@ if TYPE_CHECKING:
 
 
 def fly(
-    knot: KnotArgument,
-    supports: SupportsOption = "milp",
-    cut: SupportsCutOption = "best",
+    knot: options.KnotArgument,
+    supports: options.SupportsOption = "milp",
+    cut: options.SupportsCutOption = "best",
     formulation: Annotated[
         str | None,
-        unless_given(
+        options.unless_given(
             str(FLOWN.formulation),
             "Of the smallest set: span (the taut cable itself, which is what is flown) or opening "
             "(polygons through the grid's crossings).",
             metavar="NAME",
         ),
     ] = None,
-    r: Annotated[float | None, openness_option(FLOWN.openness)] = None,
+    r: Annotated[float | None, options.openness_option(FLOWN.openness)] = None,
     sim: Annotated[
         bool,
         typer.Option(
@@ -95,7 +84,7 @@ def fly(
     hover_after: Annotated[float, typer.Option(help="After it [s].")] = FlightLimits.hover_after,
     noise: Annotated[
         float | None,
-        unless_given(
+        options.unless_given(
             DisturbedFlights.noise, "With --sim: standard deviation of robots' positions [m]."
         ),
     ] = None,
@@ -105,17 +94,19 @@ def fly(
     ] = None,
     gust: Annotated[
         float | None,
-        unless_given(
+        options.unless_given(
             DisturbedFlights.gust, "With --sim: standard deviation of the wind about it [m/s]."
         ),
     ] = None,
     seed: Annotated[
         int | None,
-        unless_given(DisturbedFlights.seed, "With --sim: of the first disturbed flight.", min=0),
+        options.unless_given(
+            DisturbedFlights.seed, "With --sim: of the first disturbed flight.", min=0
+        ),
     ] = None,
     runs: Annotated[
         int | None,
-        unless_given(DisturbedFlights.runs, "With --sim: disturbed flights.", min=0),
+        options.unless_given(DisturbedFlights.runs, "With --sim: disturbed flights.", min=0),
     ] = None,
     tighten: Annotated[
         float | None,
@@ -126,7 +117,7 @@ def fly(
             show_default=False,
         ),
     ] = None,
-    as_json: JsonOption = False,
+    as_json: options.JsonOption = False,
 ) -> None:
     """Plan a flight that ties a knot, check it, fly it in simulation, and export it.
 
@@ -137,9 +128,9 @@ def fly(
     from knotopt.catalogue.lookup import find_knot
     from knotopt.supports.selection import equally_small
 
-    check_choice("--schedule", schedule, SCHEDULES)
+    options.check_choice("--schedule", schedule, SCHEDULES)
     if supports != "milp" and (r is not None or formulation is not None):
-        refuse("--formulation" if r is None else "--r", "goes with --supports milp")
+        options.refuse("--formulation" if r is None else "--r", "goes with --supports milp")
     requirements = Requirements(
         formulation or FLOWN.formulation, FLOWN.openness if r is None else r
     )
@@ -147,33 +138,21 @@ def fly(
     limits = FlightLimits(
         speed, acceleration, separation, downwash, spacing, slack, hover_before, hover_after
     )
-    given = {"noise": noise, "wind": wind, "gust": gust, "seed": seed, "runs": runs}
-    if not sim:
-        _refuse_without_physics(given | {"tighten": tighten})
-    disturbances = _disturbances(given)
+    disturbed = options.given(noise=noise, wind=wind, gust=gust, seed=seed, runs=runs)
+    for name in () if sim else disturbed | options.given(tighten=tighten):
+        options.refuse(f"--{name}", "goes with --sim")
+    if wind is not None:
+        disturbed["wind"] = _wind(wind)
+    disturbances = DisturbedFlights(**disturbed).disturbances()
     _check_surroundings(out, sim=sim)
 
     named = find_knot(knot)
     sets = equally_small(named.diagram, supports, cut, requirements)
     request = FlightRequest(named.name, Path(supports).name, world, limits, schedule)
-    mission = _flown(sets, request, disturbances, tighten) if sim else _planned(sets, request)
+    mission = _mission(sets, request, disturbances, tighten, sim=sim)
     _finish(mission, f"{named.name} ({named.source})", out, as_json=as_json)
     if mission.reasons:
         raise typer.Exit(1)
-
-
-def _refuse_without_physics(given: Mapping[str, object]) -> None:
-    for name, value in given.items():
-        if value is not None:
-            refuse(f"--{name}", "goes with --sim")
-
-
-def _disturbances(given: Mapping[str, Any]) -> list[Disturbance]:
-    """Of the disturbed flights, by what is given of them."""
-    options = {name: value for name, value in given.items() if value is not None}
-    if "wind" in options:
-        options["wind"] = _wind(options["wind"])
-    return DisturbedFlights(**options).disturbances()
 
 
 def _wind(text: str) -> tuple[float, float]:
@@ -182,7 +161,7 @@ def _wind(text: str) -> tuple[float, float]:
     except ValueError:
         x = y = math.nan
     if not (math.isfinite(x) and math.isfinite(y)):
-        refuse("--wind", f"is X,Y in m/s, such as 0.3,0; not {text!r}")
+        options.refuse("--wind", f"is X,Y in m/s, such as 0.3,0; not {text!r}")
     return x, y
 
 
@@ -198,24 +177,21 @@ def _check_surroundings(out: Path | None, *, sim: bool) -> None:
         MUJOCO.require()
 
 
-def _planned(sets: Iterable[SupportSet], request: FlightRequest) -> Mission:
-    """The flight by the model of laid cable."""
-    from knotopt.mission.fly import plan_mission
-
-    with _progress("planning"):
-        return plan_mission(sets, request)
-
-
-def _flown(
+def _mission(
     sets: Iterable[SupportSet],
     request: FlightRequest,
     disturbances: list[Disturbance],
     tighten: float | None,
+    *,
+    sim: bool,
 ) -> Mission:
-    """The flight rehearsed, perhaps pulled tight, then flown undisturbed and disturbed."""
-    from knotopt.mission.fly import fly_disturbed, rehearse_mission
+    """The flight by the model of laid cable; or rehearsed, perhaps pulled tight, and flown."""
+    from knotopt.mission.fly import fly_disturbed, plan_mission, rehearse_mission
 
-    with _progress("rehearsing"):
+    if not sim:
+        with status_line("planning", "planning: "):
+            return plan_mission(sets, request)
+    with status_line("rehearsing", "rehearsing: "):
         mission = rehearse_mission(sets, request, tighten)
     flights = track(disturbances, "disturbed flights", len(disturbances))
     return fly_disturbed(mission, flights)
@@ -227,13 +203,12 @@ def _finish(mission: Mission, title: str, out: Path | None, *, as_json: bool) ->
 
     missing = None if out is None else _write(mission, out)
     if as_json:
-        print_json({**mission_content(mission), "written": None if out is None else str(out)})
+        print_json(mission_content(mission) | {"written": None if out is None else str(out)})
         return
     show_mission(mission, title)
     if missing:
         print(missing)
-    if out is not None:
-        print_written(out)
+    print_written(out)
 
 
 def _write(mission: Mission, out: Path) -> str:
@@ -249,20 +224,3 @@ def _write(mission: Mission, out: Path) -> str:
         missing = f"no pictures: {error}"
     write_folder(out, files, why_kept)
     return missing
-
-
-@contextmanager
-def _progress(what: str) -> Iterator[None]:
-    """Say on the error stream what is being done, if somebody looks."""
-    from rich.console import Console
-    from rich.markup import escape
-
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield
-        return
-    with (
-        console.status(what) as status,
-        telling(lambda text: status.update(f"{what}: {escape(text)}")),
-    ):
-        yield

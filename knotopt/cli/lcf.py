@@ -4,14 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Any
 
-from knotopt.cli.options import (
-    JsonOption,
-    KnotArgument,
-    LayeredOption,
-    PlotOption,
-    cut_option,
-    refuse,
-)
+import typer
+
+from knotopt.cli import options
 from knotopt.cli.printing import print_json, print_table, print_written
 
 if TYPE_CHECKING:
@@ -19,13 +14,16 @@ if TYPE_CHECKING:
 
 
 def lcf(
-    knot: KnotArgument,
+    knot: options.KnotArgument,
     cut: Annotated[
-        str, cut_option("best (of the outer cuts), all (that are crossing-free)")
+        str, options.cut_option("best (of the outer cuts), all (that are crossing-free)")
     ] = "best",
-    layered: LayeredOption = False,
-    plot: PlotOption = None,
-    as_json: JsonOption = False,
+    layered: Annotated[
+        bool,
+        typer.Option("--layered", help="Also drop supports that lie inside another active region."),
+    ] = False,
+    plot: options.PlotOption = None,
+    as_json: options.JsonOption = False,
 ) -> None:
     """Select support robots by the Loop Consistency Filter (LCF).
 
@@ -39,7 +37,7 @@ def lcf(
     named = find_knot(knot)
     if cut == "all":
         if plot is not None:
-            refuse("--plot", "draws one cut: give --cut best or a cut's name")
+            options.refuse("--plot", "draws one cut: give --cut best or a cut's name")
         cuts = crossing_free_cuts(named.diagram)
         by_cut = lcf_by_cut(named.diagram, layered=layered, cuts=cuts)
         _print_cuts(named.name, list(by_cut.values()), as_json=as_json)
@@ -71,8 +69,7 @@ def lcf(
             for region, selected in zip(result.regions, result.selected, strict=True)
         ),
     )
-    if plot is not None:
-        print_written(plot)
+    print_written(plot)
 
 
 def _print_cuts(name: str, results: list[LcfResult], *, as_json: bool) -> None:

@@ -6,7 +6,7 @@ An option's default is that of the dataclass that it fills, read from there.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn
@@ -15,10 +15,8 @@ import typer
 
 from formulations.backends import BACKENDS
 from formulations.solution import BackendError, Limits
-from knotopt.errors import SolverError
-from knotopt.supports.registry import FORMULATIONS
+from knotopt.errors import OutputError, SolverError
 from knotopt.supports.requirements import Requirements
-from knotopt.supports.threading import Threading
 
 if TYPE_CHECKING:
     from knotopt.catalogue.lookup import NamedDiagram
@@ -98,10 +96,6 @@ PlotOption = Annotated[
         help="Draw a picture: .png, .pdf or .svg.",
     ),
 ]
-LayeredOption = Annotated[
-    bool,
-    typer.Option("--layered", help="Also drop supports that lie inside another active region."),
-]
 SupportsOption = Annotated[
     str,
     typer.Option(
@@ -112,22 +106,6 @@ SupportsOption = Annotated[
 ]
 SupportsCutOption = Annotated[str, cut_option("best (for those supports; a file's own)")]
 FormatOption = Annotated[PictureFormat, typer.Option("--format", help="Of the figures.")]
-FormulationOption = Annotated[
-    str,
-    typer.Option(
-        metavar="NAME",
-        help=" or ".join(f"{each.name} ({each.words})" for each in FORMULATIONS.values()) + ".",
-    ),
-]
-ThreadingOption = Annotated[
-    str | None,
-    typer.Option(
-        metavar="NAME",
-        help=f"What threads a region: {' or '.join(Threading)}; by default "
-        + ", ".join(f"{each.threading[0]} for {each.name}" for each in FORMULATIONS.values())
-        + ".",
-    ),
-]
 OpennessOption = Annotated[float | None, openness_option()]
 SolverOption = Annotated[
     str, typer.Option(metavar="NAME", help=f"{', '.join(BACKENDS)} (22 points at most).")
@@ -142,10 +120,21 @@ def refuse(option: str, why: str) -> NoReturn:
     raise typer.BadParameter(why, param_hint=option)
 
 
+def given(**options: Any) -> dict[str, Any]:
+    """Those of the options that are given, by name."""
+    return {name: value for name, value in options.items() if value is not None}
+
+
 def check_choice(option: str, value: str, names: Iterable[str]) -> None:
     """Refuse what is not one of the names."""
     if value not in (listed := [*names]):
         refuse(option, f"is one of {', '.join(listed)}")
+
+
+def check_suffix(path: Path | None, what: str, suffixes: Collection[str]) -> None:
+    """A wrong name of a file to be written is refused before anything is computed."""
+    if path is not None and path.suffix.lower() not in suffixes:
+        raise OutputError(f"{path}: {what} written as {', '.join(suffixes)}")
 
 
 def find_knots(names: list[str] | None, *, catalogue: bool) -> list[NamedDiagram]:

@@ -2,25 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from knotopt.cli.options import (
-    FormulationOption,
-    JsonOption,
-    KnotArgument,
-    OpennessOption,
-    PlotOption,
-    SupportsCutOption,
-    SupportsOption,
-    TimeLimitOption,
-    check_choice,
-    refuse,
-    unless_given,
-)
+from knotopt.cli import options
+from knotopt.cli.formulations import FormulationOption
 from knotopt.cli.printing import print_facts, print_json, print_note, print_table, print_written
 from knotopt.path.requirements import PathRequirements
 from knotopt.path.world import World
@@ -34,17 +23,17 @@ SAMPLES = 0.05  # between the rows of a curve's file [grid steps]
 
 
 def path(
-    knot: KnotArgument,
-    supports: SupportsOption = "milp",
+    knot: options.KnotArgument,
+    supports: options.SupportsOption = "milp",
     method: Annotated[
         str,
         typer.Option(
             metavar="NAME", help="nlp (the program), relaxation (the paper's springs), or both."
         ),
     ] = "nlp",
-    cut: SupportsCutOption = "best",
+    cut: options.SupportsCutOption = "best",
     formulation: FormulationOption = Requirements.formulation,
-    r: OpennessOption = None,
+    r: options.OpennessOption = None,
     clearance: Annotated[
         float, typer.Option(help="Smallest distance of strands in plan [grid steps].")
     ] = PathRequirements.clearance,
@@ -53,7 +42,7 @@ def path(
     ] = PathRequirements.opening,
     gap: Annotated[
         float | None,
-        unless_given(
+        options.unless_given(
             PathRequirements.gap,
             "Vertical distance at crossings [grid steps]. With --step it is what a drone and its "
             "downwash need.",
@@ -69,23 +58,24 @@ def path(
         float | None, typer.Option(help="Metres per grid step: adds lengths in metres.")
     ] = None,
     altitude: Annotated[
-        float | None, unless_given(World.altitude, "With --step: of hovering robots [m].")
+        float | None, options.unless_given(World.altitude, "With --step: of hovering robots [m].")
     ] = None,
     floor: Annotated[
-        float | None, unless_given(World.floor, "With --step: the cable's lowest [m].")
+        float | None, options.unless_given(World.floor, "With --step: the cable's lowest [m].")
     ] = None,
     ceiling: Annotated[
-        float | None, unless_given(World.ceiling, "With --step: the cable's highest [m].")
+        float | None, options.unless_given(World.ceiling, "With --step: the cable's highest [m].")
     ] = None,
     drone_height: Annotated[
-        float | None, unless_given(World.drone_height, "With --step: height of a drone [m].")
+        float | None,
+        options.unless_given(World.drone_height, "With --step: height of a drone [m]."),
     ] = None,
     downwash: Annotated[
         float | None,
-        unless_given(World.downwash, "With --step: how far below a drone it reaches [m]."),
+        options.unless_given(World.downwash, "With --step: how far below a drone it reaches [m]."),
     ] = None,
-    time_limit: TimeLimitOption = None,
-    plot: PlotOption = None,
+    time_limit: options.TimeLimitOption = None,
+    plot: options.PlotOption = None,
     out: Annotated[
         Path | None,
         typer.Option(
@@ -94,7 +84,7 @@ def path(
             "--step); not with --method both.",
         ),
     ] = None,
-    as_json: JsonOption = False,
+    as_json: options.JsonOption = False,
 ) -> None:
     """Find the path of a cable held by its robots, and check it independently.
 
@@ -105,23 +95,20 @@ def path(
     from knotopt.path.relaxation import relaxed_path
     from knotopt.supports.selection import choose_supports
 
-    check_choice("--method", method, METHODS)
-    _check_out(out, method)
+    options.check_choice("--method", method, METHODS)
+    options.check_suffix(out, "curves are", (".csv",))
+    if out is not None and method == "both":
+        options.refuse("--out", "writes one curve: give --method nlp or relaxation")
     if supports != "milp" and (r is not None or formulation != Requirements.formulation):
-        refuse("--formulation" if r is None else "--r", "goes with --supports milp")
-    asked = PathRequirements(clearance, opening, slope=slope, bending=bending)
-    room = {
-        "altitude": altitude,
-        "floor": floor,
-        "ceiling": ceiling,
-        "drone_height": drone_height,
-        "downwash": downwash,
-    }
-    world = _world(step, {name: value for name, value in room.items() if value is not None}, gap)
+        options.refuse("--formulation" if r is None else "--r", "goes with --supports milp")
+    height = {"drone_height": drone_height, "downwash": downwash}
+    room = options.given(altitude=altitude, floor=floor, ceiling=ceiling, **height)
+    world = _world(step, room, gap)
+    asked = PathRequirements(
+        clearance, opening, slope=slope, bending=bending, **options.given(gap=gap)
+    )
     if world is not None:
         asked = world.requirements(asked)
-    if gap is not None:
-        asked = replace(asked, gap=gap)
     named = find_knot(knot)
     chosen = choose_supports(named.diagram, supports, cut, Requirements(formulation, r))
     results: list[PathResult] = []
@@ -136,8 +123,7 @@ def path(
         print_json(content if len(content) > 1 else content[0])
     else:
         _show(results, title, supports, world)
-        for file in written:
-            print_written(file)
+        print_written(*written)
     if results[-1].blocked:
         raise typer.Exit(1)
 
@@ -145,22 +131,12 @@ def path(
 def _world(step: float | None, room: dict[str, float], gap: float | None) -> World | None:
     """The world that the options describe, if any."""
     if step is not None and gap is not None:
-        refuse(
+        options.refuse(
             "--gap", "is in grid steps; with --step it follows from --drone-height and --downwash"
         )
     if step is None and room:
-        refuse("--" + next(iter(room)).replace("_", "-"), "goes with --step")
+        options.refuse("--" + next(iter(room)).replace("_", "-"), "goes with --step")
     return None if step is None else World(step, **room)
-
-
-def _check_out(out: Path | None, method: str) -> None:
-    """A wrong file name is refused before anything is solved."""
-    from knotopt.errors import OutputError
-
-    if out is not None and out.suffix.lower() != ".csv":
-        raise OutputError(f"{out}: curves are written as .csv")
-    if out is not None and method == "both":
-        refuse("--out", "writes one curve: give --method nlp or relaxation")
 
 
 def _write(
@@ -208,10 +184,8 @@ def _show_one(result: PathResult, world: World | None) -> None:
     if result.blocked:
         facts.append(("not met", result.blocked))
     if world is not None:
-        facts += [
-            (name.replace("_", " "), f"{value:.3f} m")
-            for name, value in world.measures(result).items()
-        ]
+        metres = world.measures(result)
+        facts += [(name.replace("_", " "), f"{value:.3f} m") for name, value in metres.items()]
     print_facts(facts)
     print()
 

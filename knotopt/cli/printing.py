@@ -6,7 +6,10 @@ import json
 import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from knotopt.document.model import Document
 
 UNBROKEN = 1_000_000  # characters
 NARROWEST = 9  # of a column whose cells are longer [characters]
@@ -26,7 +29,8 @@ def print_table(columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
 
     # Text, not markup: columns and cells hold [brackets].
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    cells = [[_cell(value) for value in row] for row in rows]
+    words = {True: "yes", False: "no"}
+    cells = [[words[v] if isinstance(v, bool) else str(v) for v in row] for row in rows]
     for index, column in enumerate(columns):
         numeric = all(row[index].replace(".", "").lstrip("-").isdigit() for row in cells)
         # In a narrow terminal long cells break into lines; no column vanishes.
@@ -43,9 +47,18 @@ def print_table(columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
     Console(width=None if sys.stdout.isatty() else UNBROKEN).print(table)
 
 
-def print_written(path: Path) -> None:
-    """Say where a result was written."""
-    print(f"written: {path}")
+def print_tables(document: Document) -> None:
+    """Print the document's tables, each with its caption below."""
+    for table in document.tables:
+        print_table(table.heads, table.rows)
+        print_note(table.caption)
+
+
+def print_written(*paths: Path | None) -> None:
+    """Say where results were written; what is None was not asked for."""
+    for path in paths:
+        if path is not None:
+            print(f"written: {path}")
 
 
 def print_note(text: str) -> None:
@@ -61,12 +74,6 @@ def print_facts(facts: Iterable[tuple[str, Any]]) -> None:
     width = max(len(name) for name, _ in listed)
     for name, value in listed:
         print(f"{name:<{width}}  {value}")
-
-
-def _cell(value: Any) -> str:
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    return str(value)
 
 
 def _indented(content: Any, indent: str) -> str:

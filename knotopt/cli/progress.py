@@ -8,6 +8,8 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypeVar
 
+from knotopt.cli.logs import LOGGER, telling
+
 if TYPE_CHECKING:
     from rich.progress import Task
     from rich.text import Text
@@ -44,6 +46,32 @@ def logged_bar(what: str, total: int) -> Iterator[Callable[..., None]]:
             show(done)
 
         yield log
+
+
+@contextmanager
+def status_line(what: str, prefix: str = "", lasting: str | None = None) -> Iterator[None]:
+    """Show what is logged on the last line of the error stream, if somebody looks.
+
+    What begins with `lasting` is printed in a line of its own, whoever looks; with `--verbose` it
+    stands there already, with all else that is logged.
+    """
+    from rich.console import Console
+    from rich.markup import escape
+
+    console = Console(stderr=True)
+    verbose = any(not isinstance(each, logging.FileHandler) for each in LOGGER.handlers)
+    with console.status(what) as status:
+
+        def tell(text: str) -> None:
+            if lasting is None or not text.startswith(lasting):
+                status.update(prefix + escape(text))
+            elif not verbose:
+                # Into a file a line stays one line.
+                wide = not console.is_terminal
+                console.print(text, markup=False, highlight=False, soft_wrap=wide)
+
+        with telling(tell):
+            yield
 
 
 @contextmanager

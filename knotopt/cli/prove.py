@@ -9,20 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from knotopt.cli.options import (
-    CatalogueOption,
-    FormulationOption,
-    JsonOption,
-    KnotsArgument,
-    OpennessOption,
-    ThreadingOption,
-    TimeLimitOption,
-    cut_option,
-    find_knots,
-    refuse,
-    run_header,
-    solver_limits,
-)
+from knotopt.cli import options
+from knotopt.cli.formulations import FormulationOption, ThreadingOption
 from knotopt.cli.printing import print_json, print_note, print_table, print_written
 from knotopt.cli.progress import track
 from knotopt.supports.requirements import Requirements
@@ -32,12 +20,14 @@ if TYPE_CHECKING:
 
 
 def prove(
-    knots: KnotsArgument = None,
-    catalogue: CatalogueOption = False,
+    knots: options.KnotsArgument = None,
+    catalogue: options.CatalogueOption = False,
     formulation: FormulationOption = Requirements.formulation,
     threading: ThreadingOption = None,
-    r: OpennessOption = None,
-    cut: Annotated[str, cut_option("best: the bound holds for every crossing-free cut")] = "best",
+    r: options.OpennessOption = None,
+    cut: Annotated[
+        str, options.cut_option("best: the bound holds for every crossing-free cut")
+    ] = "best",
     method: Annotated[
         str | None,
         typer.Option(
@@ -46,7 +36,7 @@ def prove(
             "smaller set).",
         ),
     ] = None,
-    time_limit: TimeLimitOption = None,
+    time_limit: options.TimeLimitOption = None,
     out: Annotated[
         Path, typer.Option(metavar="FILE", help="Where the certificates go, one a line.")
     ] = Path("certificate.jsonl"),
@@ -60,16 +50,15 @@ def prove(
     from knotopt.files import resumable_lines
     from knotopt.supports.certificate import prove as prove_knot
     from knotopt.supports.registry import find_formulation
-    from knotopt.supports.requirements import Requirements
 
-    found = find_knots(knots, catalogue=catalogue)
+    found = options.find_knots(knots, catalogue=catalogue)
     asked = Requirements(formulation, r, threading)
     proofs = find_formulation(formulation).proofs
     if method not in (None, *proofs):
-        refuse("--method", f"expected {' or '.join(proofs)}")
-    limits = solver_limits(time_limit)
+        options.refuse("--method", f"expected {' or '.join(proofs)}")
+    limits = options.solver_limits(time_limit)
     settings = [formulation, asked.threading, str(asked.openness), cut, method]
-    header = run_header("prove", settings, found)
+    header = options.run_header("prove", settings, found)
     proven: list[str] = []
     try:
         with resumable_lines(out, header) as lines:
@@ -78,17 +67,11 @@ def prove(
                 print_note(f"{len(lines.done)} certificates taken over from {out}.partial")
             for named in track(found[len(lines.done) :], "knots", len(found) - len(lines.done)):
                 cuts = None if cut == "best" else [Cut.parse(cut, named.diagram.size)]
-                proven.append(
-                    prove_knot(
-                        named.name,
-                        named.diagram,
-                        asked,
-                        cuts=cuts,
-                        method=method,
-                        limits=limits,
-                    )
+                certificate = prove_knot(
+                    named.name, named.diagram, asked, cuts=cuts, method=method, limits=limits
                 )
-                lines.write(proven[-1])
+                proven.append(certificate)
+                lines.write(certificate)
     except KeyboardInterrupt:
         if proven:
             print(
@@ -97,24 +80,20 @@ def prove(
                 file=sys.stderr,
             )
         raise
-    _print_claims([json.loads(line) for line in proven])
-    print_written(out)
-
-
-def _print_claims(claims: list[dict[str, Any]]) -> None:
-    """Print what certificates say."""
     said = ("knot", "formulation", "openness", "robots", "cut")
+    claims = map(json.loads, proven)
     print_table(
         ("knot", "formulation", "r", "robots", "cut", "smallest over"),
         ((*(claim[key] for key in said), f"{len(claim['bounds'])} cuts") for claim in claims),
     )
+    print_written(out)
 
 
 def check(
     files: Annotated[
         list[Path], typer.Argument(metavar="FILE", help="As prove writes them, one a line.")
     ],
-    as_json: JsonOption = False,
+    as_json: options.JsonOption = False,
 ) -> None:
     """Check certificates from the definitions alone, without any solver.
 
@@ -138,7 +117,7 @@ def check(
         except CertificateError as error:
             rejected.append(place | {"reason": str(error)})
         else:
-            accepted.append(place | _verdict_json(verdict))
+            accepted.append(place | _accepted(verdict))
     if as_json:
         print_json({"accepted": accepted, "rejected": rejected})
     else:
@@ -162,7 +141,7 @@ def _lines(file: Path) -> list[str]:
     return lines
 
 
-def _verdict_json(verdict: CheckedCertificate) -> dict[str, Any]:
+def _accepted(verdict: CheckedCertificate) -> dict[str, Any]:
     """What `--json` says of a certificate that was accepted."""
     return {
         "knot": verdict.knot,

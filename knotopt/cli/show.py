@@ -55,8 +55,7 @@ def show(
         return
     print(draw_text(cable), end="\n\n")
     print_facts(_facts(content, len(simplest.crossings)))
-    if plot is not None:
-        print_written(plot)
+    print_written(plot)
 
 
 def _json(

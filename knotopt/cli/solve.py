@@ -9,20 +9,8 @@ import typer
 
 from formulations.backends import DEFAULT
 from formulations.solution import Limits
-from knotopt.cli.options import (
-    FormulationOption,
-    JsonOption,
-    KnotArgument,
-    OpennessOption,
-    PlotOption,
-    SolverOption,
-    ThreadingOption,
-    TimeLimitOption,
-    cut_option,
-    refuse,
-    solver_limits,
-    unless_given,
-)
+from knotopt.cli import options
+from knotopt.cli.formulations import FormulationOption, ThreadingOption
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import logged_bar, track
 from knotopt.cli.solve_flown import (
@@ -52,19 +40,19 @@ MOST_SETS = 1000  # that --all lists, unless another number is given
 
 
 def solve(
-    knot: KnotArgument,
+    knot: options.KnotArgument,
     formulation: FormulationOption = Requirements.formulation,
     threading: ThreadingOption = None,
-    r: OpennessOption = None,
+    r: options.OpennessOption = None,
     cut: Annotated[
-        str, cut_option("best (of the crossing-free cuts), all (each by itself)")
+        str, options.cut_option("best (of the crossing-free cuts), all (each by itself)")
     ] = "best",
-    solver: SolverOption = DEFAULT,
+    solver: options.SolverOption = DEFAULT,
     every: Annotated[
         bool, typer.Option("--all", help="List all smallest sets, not one of them.")
     ] = False,
     count: Annotated[
-        int | None, unless_given(MOST_SETS, "With --all: how many at most.", min=1)
+        int | None, options.unless_given(MOST_SETS, "With --all: how many at most.", min=1)
     ] = None,
     diagrams: Annotated[
         int,
@@ -120,7 +108,7 @@ def solve(
             metavar="FILE",
         ),
     ] = None,
-    time_limit: TimeLimitOption = None,
+    time_limit: options.TimeLimitOption = None,
     gap: Annotated[float, typer.Option(help="Relative gap that is good enough.")] = Limits.gap,
     threads: Annotated[int, typer.Option(help="Threads of the solver.")] = Limits.threads,
     seed: Annotated[int, typer.Option(help="Seed of solver and diagram search.")] = Limits.seed,
@@ -130,13 +118,14 @@ def solve(
             help="Write the program that was solved: .json, .mps, .opb or .wcnf.", metavar="FILE"
         ),
     ] = None,
-    plot: PlotOption = None,
-    as_json: JsonOption = False,
+    plot: options.PlotOption = None,
+    as_json: options.JsonOption = False,
 ) -> None:
     """Find the smallest set of supports, with proof that none is smaller.
 
     Example: knotopt solve '7 Var2' --formulation span --plot supports.png
     """
+    from formulations.export import FORMATS
     from knotopt.cable.cut import crossing_free_cuts
     from knotopt.catalogue.lookup import find_knot
     from knotopt.supports.minimal import all_minimal
@@ -154,18 +143,18 @@ def solve(
         forced=tuple(force or ()),
         max_robots=max_robots,
     )
-    limits = solver_limits(time_limit, gap, threads, seed)
+    limits = options.solver_limits(time_limit, gap, threads, seed)
     if count is not None and not every:
-        refuse("--count", "goes with --all")
-    _check_options(cut, diagrams, {"--plot": plot, "--export": export, "--all": every})
-    if cut in ("best", "all") and (forbid or force):
-        words = "turning points are numbered along one cable: give --cut L+ or another"
-        refuse("--forbid, --force", words)
-    _check_export(export)
+        options.refuse("--count", "goes with --all")
+    about_one_cut = {"--plot": plot, "--export": export, "--all": every}
+    _check_options(cut, diagrams, about_one_cut, numbers=bool(forbid or force))
+    options.check_suffix(export, "programs are", FORMATS)
     flights = FlightOptions(noise, trials, physics_budget, max_cut, out)
     if verify_physics:
+        if cut == "all":
+            options.refuse("--cut", "with --verify-physics, give --cut best or a cut's name")
         others = {"--all": every, "--diagrams": diagrams > 1, "--max-robots": max_robots}
-        _check_verification(cut, others)
+        _refuse_any(others, "does not go with --verify-physics")
         flown = fly_sets(named, asked, cut, flights, solver=solver, limits=limits)
         tied = flown.status == "tied"
         written = _write(named.name, flown.result, plot if tied else None, export)
@@ -193,38 +182,29 @@ def solve(
         show_search(f"{named.name} ({named.source})", search, diagram_search)
         if sets is not None:
             show_sets(sets, count or MOST_SETS)
-        for path in written:
-            print_written(path)
+        print_written(*written)
     if not result.found:
         raise typer.Exit(1)
 
 
-def _check_options(cut: str, diagrams: int, about_one_cut: dict[str, Any]) -> None:
+def _check_options(
+    cut: str, diagrams: int, about_one_cut: dict[str, Any], *, numbers: bool
+) -> None:
     """Options that exclude each other are refused."""
     if cut == "all":
-        for option, value in about_one_cut.items():
-            if value:
-                refuse(option, "is about one cut: give --cut best or a cut's name")
+        _refuse_any(about_one_cut, "is about one cut: give --cut best or a cut's name")
     if diagrams > 1 and cut != "best":
-        refuse("--diagrams", "goes with --cut best")
+        options.refuse("--diagrams", "goes with --cut best")
+    if cut in ("best", "all") and numbers:
+        why = "turning points are numbered along one cable: give --cut L+ or another"
+        options.refuse("--forbid, --force", why)
 
 
-def _check_verification(cut: str, others: dict[str, Any]) -> None:
-    """Options that do not go with flights are refused."""
-    if cut == "all":
-        refuse("--cut", "with --verify-physics, give --cut best or a cut's name")
-    for option, value in others.items():
+def _refuse_any(given: dict[str, Any], why: str) -> None:
+    """Refuse the first of the options that is given."""
+    for option, value in given.items():
         if value:
-            refuse(option, "does not go with --verify-physics")
-
-
-def _check_export(export: Path | None) -> None:
-    """A wrong file name is refused before anything is solved."""
-    from formulations.export import FORMATS
-    from knotopt.errors import OutputError
-
-    if export is not None and export.suffix.lower() not in FORMATS:
-        raise OutputError(f"{export}: programs are written as {', '.join(FORMATS)}")
+            options.refuse(option, why)
 
 
 def _search(
@@ -234,16 +214,11 @@ def _search(
     from knotopt.cable.cut import Cut, crossing_free_cuts
     from knotopt.supports.search import best_diagram, best_supports
 
+    solving: dict[str, Any] = {"solver": solver, "limits": limits}
     if diagrams > 1:
         with logged_bar("diagrams", diagrams) as show:
             found = best_diagram(
-                diagram,
-                asked,
-                budget=diagrams,
-                seed=limits.seed,
-                solver=solver,
-                limits=limits,
-                progress=show,
+                diagram, asked, budget=diagrams, seed=limits.seed, progress=show, **solving
             )
         return found.best, found
     cuts = (Cut.parse(cut, diagram.size),) if cut != "best" else crossing_free_cuts(diagram)
@@ -252,9 +227,8 @@ def _search(
             diagram,
             asked,
             cuts=cuts,
-            solver=solver,
-            limits=limits,
             progress=lambda done: show(done, cuts[done - 1]),
+            **solving,
         )
     return search, None
 

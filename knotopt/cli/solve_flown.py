@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import importlib.metadata
 import json
-import logging
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, fields
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from knotopt.cli.logs import LOGGER, telling
-from knotopt.cli.options import refuse, run_header, unless_given
+from knotopt.cli.options import check_suffix, given, refuse, run_header, unless_given
+from knotopt.cli.progress import status_line
 from knotopt.cli.solve_flown_printing import flown_json
 from knotopt.rehearsal.flight_tests import FlightTests
 
@@ -66,15 +64,14 @@ class FlightOptions:
     def check_unused(self) -> None:
         """Without flights none of them makes sense."""
         names = {"seconds": "--physics-budget", "max_cut": "--max-cut"}
-        for field in fields(self):
-            if getattr(self, field.name) is not None:
-                refuse(names.get(field.name, f"--{field.name}"), "goes with --verify-physics")
+        for name in given(**vars(self)):
+            refuse(names.get(name, f"--{name}"), "goes with --verify-physics")
 
     def tests(self) -> FlightTests:
         """What sets are put to."""
-        names = [field.name for field in fields(FlightTests)]
-        given = {name: getattr(self, name) for name in names}
-        return FlightTests(**{name: value for name, value in given.items() if value is not None})
+        return FlightTests(
+            **given(**{each.name: getattr(self, each.name) for each in fields(FlightTests)})
+        )
 
 
 class _UnfinishedError(Exception):
@@ -92,37 +89,23 @@ def fly_sets(
 ) -> FlownResult:
     """Fly sets until one ties the knot; write the answer to the file asked for."""
     from knotopt.cable.cut import Cut
-    from knotopt.errors import OutputError
     from knotopt.rehearsal.cut_off import solve_flown
     from knotopt.sim.simulators import MUJOCO
 
-    if options.out is not None and options.out.suffix.lower() != ".json":
-        raise OutputError(f"{options.out}: the answer is written as .json")
+    check_suffix(options.out, "the answer is", (".json",))
     MUJOCO.require()
     tests = options.tests()
 
-    def search(
-        known: tuple[CutOff, ...] = (), keep: Callable[[CutOff], None] | None = None
-    ) -> FlownResult:
-        with _telling():
-            return solve_flown(
-                named.name,
-                named.diagram,
-                asked,
-                tests,
-                cuts=None if cut == "best" else [Cut.parse(cut, named.diagram.size)],
-                solver=solver,
-                limits=limits,
-                known=known,
-                on_cut_off=keep,
-            )
-
-    if options.out is None:
-        return search()
-    versions = [importlib.metadata.version(package) for package in ("knotopt", MUJOCO.package)]
-    settings = ["verify-physics", repr(asked), cut, tests.noise, tests.trials, versions]
-    header = run_header("solve", settings, [named])
-    return _search_into(options.out, header, named, search)
+    cuts = None if cut == "best" else [Cut.parse(cut, named.diagram.size)]
+    knot = named.name, named.diagram
+    search = partial(solve_flown, *knot, asked, tests, cuts=cuts, solver=solver, limits=limits)
+    with status_line("solving", lasting="set "):
+        if options.out is None:
+            return search()
+        versions = [importlib.metadata.version(each) for each in ("knotopt", MUJOCO.package)]
+        settings = ["verify-physics", repr(asked), cut, tests.noise, tests.trials, versions]
+        header = run_header("solve", settings, [named])
+        return _search_into(options.out, header, named, search)
 
 
 def _search_into(
@@ -150,7 +133,7 @@ def _search_into(
                 lines.write(json.dumps(each.to_json()))
                 done += 1
 
-            found.append(search(known, keep))
+            found.append(search(known=known, on_cut_off=keep))
             if found[0].status in (FlownStatus.BUDGET, FlownStatus.UNKNOWN):
                 raise _UnfinishedError
     except _UnfinishedError:
@@ -164,34 +147,6 @@ def _search_into(
             )
         raise
     return found[0]
-
-
-@contextmanager
-def _telling() -> Iterator[None]:
-    """Sets go to the error stream line by line; what happens within one to its last line.
-
-    With `--verbose` the sets stand there already, with all else that is logged.
-    """
-    from rich.console import Console
-    from rich.markup import escape
-
-    console = Console(stderr=True)
-    verbose = any(not isinstance(each, logging.FileHandler) for each in LOGGER.handlers)
-    if not console.is_terminal:
-        sets = telling(lambda text: _note(text) if text.startswith("set ") else None)
-        with nullcontext() if verbose else sets:
-            yield
-        return
-    with console.status("solving") as status:
-
-        def tell(text: str) -> None:
-            if not text.startswith("set "):
-                status.update(escape(text))
-            elif not verbose:
-                console.print(text, markup=False, highlight=False)
-
-        with telling(tell):
-            yield
 
 
 def _sets(count: int) -> str:

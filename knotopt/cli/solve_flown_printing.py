@@ -77,8 +77,7 @@ def show_flown(
         )
     print()
     print_note(claim(flown))
-    for path in written:
-        print_written(path)
+    print_written(*written)
 
 
 _ENDED = {

@@ -56,7 +56,15 @@ def search_json(
         "proven_over_cuts": search.is_proven,
         "status_over_cuts": str(search.status),
         "bound_over_cuts": search.bound,
-        "cuts": [_outcome_json(outcome) for outcome in search.outcomes],
+        "cuts": [
+            {
+                "cut": str(each.cut),
+                "robots_after": each.robots,
+                "bound": each.bound,
+                "status": str(each.status),
+            }
+            for each in search.outcomes
+        ],
         "diagrams_tried": diagram_search.tried if diagram_search else 1,
         "grid": [list(mark) for mark in cable.diagram.marks],
         "path": [list(mark) for mark in cable.path],
@@ -108,12 +116,13 @@ def _facts(search: CutSearch, cut_off: int) -> list[tuple[str, str]]:
     if result.smallest_opening is not None:
         clearance = f"{result.smallest_opening:.3f} grid steps: the smallest opening"
     asked = f"{requirements.formulation}, threading {requirements.threading}"
+    bound = "none known" if search.bound is None else f"{search.bound} robots"
     equals = "largest smallest opening, then first" if result.canonical else "any of them"
     lcf = f"{result.lcf.robots} robots, " + (f"not open: closes {closed}" if closed else "open")
     return [
         ("formulation", asked + asked_in_words(requirements)),
         ("proven", _proof(search) + (f" but for {cut_off} cut off" if cut_off else "")),
-        ("bound", f"{_bound(search)}, on this cut {solution.status} ({solution.raw_status})"),
+        ("bound", f"{bound}, on this cut {solution.status} ({solution.raw_status})"),
         ("checked", "open by the definition" if result.report.is_open else "NOT open"),
         ("clearance", clearance),
         ("among equals", equals),
@@ -141,15 +150,11 @@ def _proof(search: CutSearch) -> str:
     scope = f"over {len(search.outcomes)} cuts" if len(search.outcomes) > 1 else "on this cut"
     if result.requirements.max_robots is not None:
         return f"no larger opening {scope}" if search.is_proven else "no"
-    if search.is_proven and result.robots == 2:
+    if not search.is_proven:
+        return "no: stopped at a limit"
+    if result.robots == 2:
         return "the two lifting robots are enough"
-    if search.is_proven:
-        return f"no set of {result.robots - 1} robots is open {scope}"
-    return "no: stopped at a limit"
-
-
-def _bound(search: CutSearch) -> str:
-    return "none known" if search.bound is None else f"{search.bound} robots"
+    return f"no set of {result.robots - 1} robots is open {scope}"
 
 
 def _show_failure(title: str, search: CutSearch) -> None:
@@ -192,15 +197,6 @@ def show_cuts(name: str, results: list[MinimalSupports], *, as_json: bool) -> No
             for result in results
         ),
     )
-
-
-def _outcome_json(outcome: CutOutcome) -> dict[str, Any]:
-    return {
-        "cut": str(outcome.cut),
-        "robots_after": outcome.robots,
-        "bound": outcome.bound,
-        "status": str(outcome.status),
-    }
 
 
 def _outcome_cells(outcome: CutOutcome, best: int) -> tuple[str, str, str]:

@@ -8,9 +8,8 @@ from typing import Annotated
 
 import typer
 
-from knotopt.cli.documents import print_tables
-from knotopt.cli.options import FormatOption, JsonOption, PictureFormat
-from knotopt.cli.printing import print_json, print_written
+from knotopt.cli.options import FormatOption, JsonOption, PictureFormat, refuse
+from knotopt.cli.printing import print_json, print_tables, print_written
 from knotopt.cli.progress import track
 
 
@@ -37,23 +36,15 @@ def table1(
 
     if out is not None:
         if all_grids:
-            raise typer.BadParameter(
-                "writes the six rows: leave out --all-grids", param_hint="--out"
-            )
+            refuse("--out", "writes the six rows: leave out --all-grids")
         # Before the work, so that what is not installed is said at once.
         from knotopt.tables.table1_files import write_table1
     total = len(chosen_grids(all_grids=all_grids))
     results = list(track(compute_table1(all_grids=all_grids), "grids", total))
     written = write_table1(out, results, picture_format) if out is not None else []
     if as_json:
-        print_json(
-            [
-                result.cells | {"paths": [asdict(path) for path in result.paths]}
-                for result in results
-            ]
-        )
+        print_json([each.cells | {"paths": list(map(asdict, each.paths))} for each in results])
         return
     for table in (tabulated(results), tabulated_paths(results)):
         print_tables(table.document)
-    for path in written:
-        print_written(path)
+    print_written(*written)

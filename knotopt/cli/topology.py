@@ -147,14 +147,10 @@ def _plans_words(graph: PlanGraph) -> str:
 def _flown_words(graph: PlanGraph, flown: Plan | None) -> str:
     if flown is None:
         return "the flight does not pass the start"
-    if _is_shortest(graph, flown):
-        return f"{len(flown)} actions, no plan has fewer"
     fewest = min(graph.counts)
+    if len(flown) == fewest:
+        return f"{len(flown)} actions, no plan has fewer"
     return f"{len(flown)} actions; with R2, {fewest} do"
-
-
-def _is_shortest(graph: PlanGraph, flown: Plan) -> bool:
-    return len(flown) == min(graph.counts)
 
 
 def _lcf_words(faces: LeaderFaces) -> str:
@@ -186,7 +182,7 @@ def _json(
         "plans_by_length": {str(length): count for length, count in graph.counts.items()},
         "plans": [
             {
-                "actions": [str(action) for action in plan.actions],
+                "actions": list(map(str, plan.actions)),
                 "states": [number[each] for each in plan.states],
             }
             for plan in listed
@@ -196,7 +192,7 @@ def _json(
         else {
             "actions": [str(action) for action in flown.actions],
             "states": [str(each) for each in flown.states],
-            "is_shortest": _is_shortest(graph, flown),
+            "is_shortest": len(flown) == min(graph.counts),
         },
         "states": [
             {

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 
-@dataclass(frozen=True)
-class _Lines:
-    """What the module of the standard library takes for a file."""
+class _Lines(io.StringIO):
+    """Text whose lines end in a line feed.
 
-    lines: list[str]
+    The writer of the standard library quotes a carriage return only if it ends the lines, too.
+    """
 
-    def write(self, line: str) -> None:
-        self.lines.append(line.removesuffix("\r\n") + "\n")
+    def write(self, line: str) -> int:
+        return super().write(line.removesuffix("\r\n") + "\n")
 
 
 def csv_text(names: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> str:
@@ -40,12 +40,11 @@ def csv_text(names: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> str:
     knot,supports
     3_1,"[3, 4]"
     """
-    lines: list[str] = []
-    # A carriage return in a cell is quoted only if it ends the lines, too.
-    writer = csv.DictWriter(_Lines(lines), names)
+    lines = _Lines(newline="")
+    writer = csv.DictWriter(lines, names)
     writer.writeheader()
     writer.writerows({name: _cell(value) for name, value in row.items()} for row in rows)
-    return "".join(lines)
+    return lines.getvalue()
 
 
 def _cell(value: Any) -> Any:

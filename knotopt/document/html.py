@@ -6,7 +6,7 @@ import base64
 from collections.abc import Mapping
 from html import escape
 
-from knotopt.document.model import Block, Document, Picture, Table, pieces
+from knotopt.document.model import Block, Document, Picture, Table, marked
 from knotopt.document.pages import filled, page, part
 
 
@@ -41,12 +41,8 @@ def html(document: Document, pictures: Mapping[str, bytes]) -> str:
         f'<li><a href="#part-{number}">{_text(section.title)}</a></li>'
         for number, section in enumerate(document.sections, 1)
     )
-    parts = {
-        "title": escape(document.title),
-        "facts": facts,
-        "contents": contents,
-        "sections": sections,
-    }
+    parts = {"title": escape(document.title), "facts": facts}
+    parts |= {"contents": contents, "sections": sections}
     body = filled(part(__package__, "document.html"), parts)
     return page(document.title, body, part(__package__, "document.css")) + "\n"
 
@@ -89,7 +85,4 @@ def _table(block: Table, name: str) -> str:
 
 
 def _text(text: str) -> str:
-    return "".join(
-        f"<code>{escape(piece)}</code>" if is_code else escape(piece)
-        for is_code, piece in pieces(text)
-    )
+    return marked(text, lambda piece: f"<code>{escape(piece)}</code>", escape)

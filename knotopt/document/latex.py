@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from knotopt.document.model import Block, Document, Picture, Table, pieces
+from knotopt.document.model import Block, Document, Picture, Table, marked
 
 _HEAD = r"""\documentclass[a4paper,10pt]{article}
 \usepackage[utf8]{inputenc}
@@ -114,13 +114,14 @@ def _row(cells: list[str]) -> str:
 
 
 def _text(text: str) -> str:
-    written = "".join(
-        # A path may be broken where a line ends.
-        f"\\texttt{{{_escaped(piece).replace('/', '/' + BREAK)}}}" if is_code else _escaped(piece)
-        for is_code, piece in pieces(text)
-    )
+    written = marked(text, _code, _escaped)
     # After the end of a row, or an \item, these would be part of the command.
     return "{}" + written if written.startswith(("[", "*")) else written
+
+
+def _code(text: str) -> str:
+    # A path may be broken where a line ends.
+    return f"\\texttt{{{_escaped(text).replace('/', '/' + BREAK)}}}"
 
 
 def _escaped(text: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from knotopt.document.model import Block, Document, Picture, Table, pieces
+from knotopt.document.model import Block, Document, Picture, Table, marked
 
 # An underscore inside a word, as in 8_19, means nothing.
 _SPECIAL = re.compile(r"[\\*|\[\]#`&<~]|^>|(?<![A-Za-z0-9])_|_(?![A-Za-z0-9])")
@@ -12,18 +12,18 @@ _SPECIAL = re.compile(r"[\\*|\[\]#`&<~]|^>|(?<![A-Za-z0-9])_|_(?![A-Za-z0-9])")
 _ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", "~": "&#126;"}
 
 
-def markdown(document: Document, ending: str = "png") -> str:
-    """The document's text; pictures are files beside it."""
+def markdown(document: Document) -> str:
+    """The document's text; pictures are .png files beside it."""
     parts = [f"# {_text(document.title)}"] if document.title else []
     if document.facts:
         parts += ["\n".join(f"- {_text(name)}: {_text(value)}" for name, value in document.facts)]
     for section in document.sections:
         parts += [f"## {_text(section.title)}"] if section.title else []
-        parts += [markdown_block(block, ending) for block in section.blocks]
+        parts += [markdown_block(block) for block in section.blocks]
     return "\n\n".join(parts) + "\n"
 
 
-def markdown_block(block: Block, ending: str = "png") -> str:
+def markdown_block(block: Block) -> str:
     """One block of a document."""
     match block:
         case str():
@@ -31,7 +31,7 @@ def markdown_block(block: Block, ending: str = "png") -> str:
         case tuple():
             return "\n".join(f"- {_text(item)}" for item in block)
         case Picture():
-            shown = f"![{_text(block.shows)}]({block.name}.{ending})"
+            shown = f"![{_text(block.shows)}]({block.name}.png)"
             return f"{shown}\n\n*{_text(block.caption)}*"
         case Table():
             caption = f"\n\n{_text(block.caption)}" if block.caption else ""
@@ -45,10 +45,11 @@ def _table(block: Table) -> str:
 
 
 def _text(text: str) -> str:
-    return "".join(
-        f"`{piece}`" if is_code else _SPECIAL.sub(_escaped, piece)
-        for is_code, piece in pieces(text)
-    )
+    return marked(text, lambda piece: f"`{piece}`", _plain)
+
+
+def _plain(piece: str) -> str:
+    return _SPECIAL.sub(_escaped, piece)
 
 
 def _escaped(found: re.Match[str]) -> str:
@@ -57,7 +58,4 @@ def _escaped(found: re.Match[str]) -> str:
 
 def _cell(text: str) -> str:
     """In a table a bar ends the cell even inside code."""
-    return "".join(
-        "`" + piece.replace("|", r"\|") + "`" if is_code else _text(piece)
-        for is_code, piece in pieces(text)
-    )
+    return marked(text, lambda piece: "`" + piece.replace("|", r"\|") + "`", _plain)

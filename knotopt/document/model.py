@@ -6,7 +6,7 @@ Text may have `code` between backticks; everything else in it is shown as it is.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 NONE = "\N{EN DASH}"
@@ -130,6 +130,11 @@ def pieces(text: str) -> Iterator[tuple[bool, str]]:
     for index, piece in enumerate(re.split(r"`([^`]+)`", _CONTROL.sub(" ", text))):
         if piece:
             yield index % 2 == 1, piece
+
+
+def marked(text: str, code: Callable[[str], str], plain: Callable[[str], str]) -> str:
+    """The text with code written by one function, all else by another."""
+    return "".join((code if is_code else plain)(piece) for is_code, piece in pieces(text))
 
 
 def _is_number(cell: str) -> bool:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, fields, replace
 from fractions import Fraction
+from itertools import chain
 
 from formulations.backends import DEFAULT
 from formulations.solution import Limits
@@ -142,11 +143,7 @@ def compare(
     sets: dict[str, SupportSet] = {LCF.key: plain}
     if searches[OPENING].best.found:
         sets[OPENING.key] = searches[OPENING].best
-    paths = [measure(path, key) for key, each in sets.items() for path in both_methods(each)]
-    return {
-        **{column: row[column] for column in names(COLUMNS)},
-        "paths": [asdict(path) for path in paths],
-    }
+    return {column: row[column] for column in names(COLUMNS)} | {"paths": path_rows(sets)}
 
 
 def tabulated(rows: Sequence[Row]) -> Tabulation:
@@ -175,20 +172,34 @@ def tabulated(rows: Sequence[Row]) -> Tabulation:
 
 def _paths(rows: Sequence[Row]) -> list[list[tuple[str, str]]]:
     """Medians over the rows, by supports and method."""
-    groups: dict[tuple[str, str], list[Row]] = {}
-    for path in (path for row in rows for path in row["paths"]):
-        groups.setdefault((path["supports"], path["method"]), []).append(path)
+
+    def count(held: Sequence[bool]) -> str:
+        return f"{sum(held)} of {len(held)}"
+
     return [
         [
             ("supports", supports),
             ("method", method),
-            ("done", _count([path["status"] in ("solved", "converged") for path in paths])),
-            ("same knot", _count([path["same_diagram"] for path in paths])),
+            ("done", count(is_done(paths))),
+            ("same knot", count([path["same_diagram"] for path in paths])),
             *path_medians(paths),
             ("ms", median([p["milliseconds"] for p in paths], 0)),
         ]
-        for (supports, method), paths in groups.items()
+        for (supports, method), paths in path_groups(chain(*(row["paths"] for row in rows))).items()
     ]
+
+
+def path_groups(paths: Iterable[Row]) -> dict[tuple[str, str], list[Row]]:
+    """The measures of paths by supports and method."""
+    groups: dict[tuple[str, str], list[Row]] = {}
+    for path in paths:
+        groups.setdefault((path["supports"], path["method"]), []).append(path)
+    return groups
+
+
+def is_done(paths: Sequence[Row]) -> list[bool]:
+    """Which of the paths came to an end, not to a limit."""
+    return [path["status"] in ("solved", "converged") for path in paths]
 
 
 def path_medians(paths: Sequence[Row]) -> list[tuple[str, str]]:
@@ -196,8 +207,10 @@ def path_medians(paths: Sequence[Row]) -> list[tuple[str, str]]:
     return [(head, median([path[name] for path in paths], 3)) for name, head in PATH_HEADS.items()]
 
 
-def _count(held: Sequence[bool]) -> str:
-    return f"{sum(held)} of {len(held)}"
+def path_rows(sets: Mapping[str, SupportSet]) -> list[Row]:
+    """The measures of both paths of each of the sets, which are named."""
+    chosen = ((name, path) for name, each in sets.items() for path in both_methods(each))
+    return [asdict(measure(path, name)) for name, path in chosen]
 
 
 def _flat(row: Row) -> Row:

@@ -16,7 +16,7 @@ import pytest
 from knotopt.atlas.engine import Cluster, EngineError, Local
 from knotopt.atlas.knot_list import catalogue_rows
 from knotopt.atlas.run import Progress, run_atlas
-from knotopt.atlas.schema import ATLAS, KNOTS, MANIFEST, Settings
+from knotopt.atlas.schema import MANIFEST, File, Settings
 from knotopt.errors import MissingExtraError
 
 
@@ -155,7 +155,7 @@ def test_cluster_of_two_processes_of_which_one_is_killed(scheduler: str, tmp_pat
     with pytest.raises(ProcessLookupError):
         os.kill(killed[0], 0)
     run_atlas(tmp_path / "local", knots, settings, Local(1))
-    for name in (ATLAS, KNOTS, MANIFEST):
+    for name in (File.ATLAS, File.KNOTS, MANIFEST):
         assert (tmp_path / "cluster" / name).read_bytes() == (
             tmp_path / "local" / name
         ).read_bytes()

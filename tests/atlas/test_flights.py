@@ -19,7 +19,7 @@ from knotopt.atlas.report.flights import OUTCOMES, agreement_table, tied_table
 from knotopt.atlas.report.report import report_document
 from knotopt.atlas.report.results import Results, read_results
 from knotopt.atlas.run import run_atlas
-from knotopt.atlas.schema import FLIGHT_TIMES, FLIGHTS, Settings
+from knotopt.atlas.schema import File, Settings
 from knotopt.atlas.store import read_manifest, read_rows
 from knotopt.cable.cable import Cable
 from knotopt.catalogue.lookup import find_knot
@@ -114,7 +114,9 @@ def test_a_flight_that_cannot_be_examined(monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def test_rows(folder: Path, found: dict[int, KnotResult]) -> None:
-    rows, times = (read_rows(folder, name).to_pylist() for name in (FLIGHTS, FLIGHT_TIMES))
+    rows, times = (
+        read_rows(folder, name).to_pylist() for name in (File.FLIGHTS, File.FLIGHT_TIMES)
+    )
     kinds = ["lcf", "opening", "span"] * 16
     assert [row["supports"] for row in rows] == [row["supports"] for row in times] == kinds
     atlas = [row for number in (1, 2) for row in found[number].rows]
@@ -127,7 +129,7 @@ def test_rows(folder: Path, found: dict[int, KnotResult]) -> None:
         assert row["span_open"] or row["supports"] != "span"
         assert row["planned"] or row["cut"] == "L-"
     assert {row["span_open"] for row in rows} == {True, False}
-    for name in (FLIGHTS, FLIGHT_TIMES):
+    for name in (File.FLIGHTS, File.FLIGHT_TIMES):
         schema = read_rows(folder, name).schema
         for column in FILES[name]:
             assert schema.field(column.name).metadata[b"meaning"].decode() == column.meaning
@@ -144,9 +146,9 @@ def test_equal_sets_fly_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(flights, "fly_set", count)
     result = measure_knot(LIST[0], SETTINGS)
     assert len(flown) == len(set(flown)) < 24
-    times = result.requested[FLIGHT_TIMES]
+    times = result.requested[File.FLIGHT_TIMES]
     assert sum(row["simulation_seconds"] > 0 for row in times) == len(flown)
-    assert len(times) == len(result.requested[FLIGHTS]) == 24
+    assert len(times) == len(result.requested[File.FLIGHTS]) == 24
 
 
 def test_resumed(tmp_path: Path, folder: Path, found: dict[int, KnotResult]) -> None:
@@ -233,8 +235,8 @@ def test_the_same_bytes_every_time(tmp_path: Path) -> None:
     settings = Settings(check=0, physics=True)
     for name in ("one", "other"):
         run_atlas(tmp_path / name, LIST[:1], settings, Local(1 if name == "one" else 2))
-    one, other = ((tmp_path / name / FLIGHTS).read_bytes() for name in ("one", "other"))
+    one, other = ((tmp_path / name / File.FLIGHTS).read_bytes() for name in ("one", "other"))
     assert one == other
-    rows = read_rows(tmp_path / "one", FLIGHTS).to_pylist()
+    rows = read_rows(tmp_path / "one", File.FLIGHTS).to_pylist()
     assert {row["outcome"] for row in rows} == {"tied", "wrong knot"}
     assert all(row["why"] for row in rows if not row["tied"])

@@ -19,13 +19,7 @@ import pytest
 from knotopt.atlas.engine import Engine, EngineError
 from knotopt.atlas.measure import KnotResult
 from knotopt.atlas.run import run_atlas
-from knotopt.atlas.schema import (
-    ATLAS,
-    MANIFEST,
-    PARTS,
-    PATHS,
-    Settings,
-)
+from knotopt.atlas.schema import MANIFEST, PARTS, File, Settings
 from knotopt.atlas.store import read_rows
 from knotopt.errors import OutputError
 from tests.helpers.small_atlas import LIST, SETTINGS, Replay, contents
@@ -117,7 +111,7 @@ def test_damaged_part(
     assert contents(half) == before
     part.unlink()
     run_atlas(half, LIST, SETTINGS, Replay(measured))
-    assert read_rows(half, ATLAS).num_rows == 40
+    assert read_rows(half, File.ATLAS).num_rows == 40
 
 
 def test_part_of_another_run(half: Path, tmp_path: Path, measured: dict[int, KnotResult]) -> None:
@@ -139,11 +133,11 @@ def test_the_same_knot_in_two_parts(half: Path, measured: dict[int, KnotResult])
 
 
 def test_damaged_final_file(whole: Path) -> None:
-    (whole / ATLAS).write_bytes(_flip((whole / ATLAS).read_bytes()))
+    (whole / File.ATLAS).write_bytes(_flip((whole / File.ATLAS).read_bytes()))
     with pytest.raises(OutputError, match=r"atlas.parquet is damaged"):
-        read_rows(whole, ATLAS)
+        read_rows(whole, File.ATLAS)
     with pytest.raises(OutputError, match=r"has no paths.parquet: the run was not asked for it"):
-        read_rows(whole, PATHS)
+        read_rows(whole, File.PATHS)
 
 
 def test_full_disk(
@@ -174,7 +168,7 @@ def test_full_disk_at_the_merge(
     real = store.write_atomically
 
     def full(path: Path, content: bytes) -> None:
-        if path.name == ATLAS:
+        if path.name == File.ATLAS:
             raise OutputError(f"cannot write {path}: No space left on device")
         real(path, content)
 
@@ -217,4 +211,4 @@ def test_two_processes_do_not_share_a_folder(half: Path, measured: dict[int, Kno
 
     engine: Engine = Inside(measured)
     run_atlas(half, LIST, SETTINGS, engine)
-    assert read_rows(half, ATLAS).num_rows == 40
+    assert read_rows(half, File.ATLAS).num_rows == 40

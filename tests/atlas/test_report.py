@@ -30,7 +30,7 @@ from knotopt.atlas.report.results import Results, read_results
 from knotopt.atlas.report.robots import distribution_table, means_table
 from knotopt.atlas.report.times import paths_section, times_table
 from knotopt.atlas.run import run_atlas
-from knotopt.atlas.schema import ATLAS, Settings
+from knotopt.atlas.schema import File, Settings
 from knotopt.atlas.store import read_rows
 from knotopt.cable.cut import OUTER_CUTS
 from knotopt.catalogue.knotinfo import is_installed
@@ -64,7 +64,7 @@ def results(folder: Path) -> Results:
 
 @pytest.fixture(scope="module")
 def rows(folder: Path) -> list[dict[str, Any]]:
-    return list(read_rows(folder, ATLAS).to_pylist())
+    return list(read_rows(folder, File.ATLAS).to_pylist())
 
 
 def column(table: Table, head: str) -> dict[str, str]:
@@ -297,7 +297,7 @@ def test_unfinished_and_damaged_runs(results: Results, folder: Path, tmp_path: P
         read_results(tmp_path)
     copy = tmp_path / "run"
     shutil.copytree(folder, copy)
-    (copy / ATLAS).rename(copy / "elsewhere")
+    (copy / File.ATLAS).rename(copy / "elsewhere")
     with pytest.raises(OutputError, match="is not complete: run `knotopt atlas` again"):
         read_results(copy)
     assert len(results.knots) == len(NAMES)

@@ -16,17 +16,7 @@ from knotopt.atlas.engine import Local
 from knotopt.atlas.knot_list import catalogue_rows, folder_rows
 from knotopt.atlas.measure import KnotResult, agrees_with_definition, measure_knot
 from knotopt.atlas.run import Progress, run_atlas
-from knotopt.atlas.schema import (
-    ATLAS,
-    KNOTS,
-    MANIFEST,
-    PARTS,
-    PATHS,
-    TIMES,
-    KnotRow,
-    Manifest,
-    Settings,
-)
+from knotopt.atlas.schema import MANIFEST, PARTS, File, KnotRow, Manifest, Settings
 from knotopt.atlas.store import read_manifest, read_rows
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import OUTER_CUTS
@@ -87,7 +77,7 @@ def _asked(formulation: str, threading: str | None = None) -> Any:
 
 
 def _no_span() -> dict[str, None]:
-    return {name: None for name in names(FILES[ATLAS]) if name.startswith("span_")}
+    return {name: None for name in names(FILES[File.ATLAS]) if name.startswith("span_")}
 
 
 def test_lcf_below_means_that_no_open_set_is_as_small(measured: dict[int, KnotResult]) -> None:
@@ -135,7 +125,7 @@ def test_openness_counts() -> None:
 def test_paths_are_rows_of_their_own(tmp_path: Path) -> None:
     settings = Settings(paths=True, check=0)
     run_atlas(tmp_path / "run", LIST[:1], settings, Local(1))
-    paths = read_rows(tmp_path / "run", PATHS).to_pylist()
+    paths = read_rows(tmp_path / "run", File.PATHS).to_pylist()
     assert len(paths) == 8 * 4
     assert [(p["cut"], p["supports"], p["method"]) for p in paths[:5]] == [
         ("L+", "lcf", "relaxation"),
@@ -145,23 +135,28 @@ def test_paths_are_rows_of_their_own(tmp_path: Path) -> None:
         ("L-", "lcf", "relaxation"),
     ]
     assert all(p["same_diagram"] and p["length"] > 10 for p in paths)
-    times = read_rows(tmp_path / "run", TIMES).to_pylist()
+    times = read_rows(tmp_path / "run", File.TIMES).to_pylist()
     assert all(row["paths_seconds"] > 0 for row in times)
     assert "casadi" in read_manifest(tmp_path / "run").versions
 
 
 def test_files_of_a_whole_run(whole: Path, measured: dict[int, KnotResult]) -> None:
-    assert sorted(path.name for path in whole.iterdir()) == [ATLAS, KNOTS, MANIFEST, TIMES]
-    atlas, times = read_rows(whole, ATLAS), read_rows(whole, TIMES)
+    assert sorted(path.name for path in whole.iterdir()) == [
+        File.ATLAS,
+        File.KNOTS,
+        MANIFEST,
+        File.TIMES,
+    ]
+    atlas, times = read_rows(whole, File.ATLAS), read_rows(whole, File.TIMES)
     rows = [_tuples(row) for row in atlas.to_pylist()]
     assert rows == [row for number in sorted(measured) for row in measured[number].rows]
     for column in ("number", "knot", "cut"):
         assert times[column] == atlas[column]
     assert {len(result.times) for result in measured.values()} == {8}
-    listed = [KnotRow(**_tuples(row)) for row in read_rows(whole, KNOTS).to_pylist()]
+    listed = [KnotRow(**_tuples(row)) for row in read_rows(whole, File.KNOTS).to_pylist()]
     assert tuple(listed) == LIST
-    assert tuple(field.name for field in fields(KnotRow)) == names(FILES[KNOTS])
-    for name in (ATLAS, KNOTS, TIMES):
+    assert tuple(field.name for field in fields(KnotRow)) == names(FILES[File.KNOTS])
+    for name in (File.ATLAS, File.KNOTS, File.TIMES):
         schema = read_rows(whole, name).schema
         assert tuple(schema.names) == names(FILES[name])
         for column in FILES[name]:
@@ -183,7 +178,7 @@ def test_a_resumed_run_is_the_same(
     assert [path.name for path in (half / PARTS).iterdir()] == ["part-00000001.parquet"]
     (half / PARTS / ".part-00000002.parquet.abc.tmp").write_bytes(b"torn")
     with pytest.raises(OutputError, match="is not complete"):
-        read_rows(half, ATLAS)
+        read_rows(half, File.ATLAS)
     seen: list[Progress] = []
     engine = Replay(measured)
     done = run_atlas(half, LIST, SETTINGS, engine, seen.append)
@@ -225,7 +220,7 @@ def test_killed_between_the_final_files(
     real = store.write_atomically
 
     def killed(path: Path, content: bytes) -> None:
-        if path.name == ATLAS:
+        if path.name == File.ATLAS:
             raise KeyboardInterrupt
         real(path, content)
 
@@ -233,7 +228,7 @@ def test_killed_between_the_final_files(
         patch.setattr(store, "write_atomically", killed)
         with pytest.raises(KeyboardInterrupt):
             run_atlas(half, LIST, SETTINGS, Replay(measured))
-    assert (half / TIMES).exists()
+    assert (half / File.TIMES).exists()
     engine = Replay(measured)
     run_atlas(half, LIST, SETTINGS, engine)
     assert engine.asked == []
@@ -280,7 +275,7 @@ def test_manifest_is_its_text() -> None:
 
 
 def test_integers_fit(whole: Path) -> None:
-    table = read_rows(whole, ATLAS)
+    table = read_rows(whole, File.ATLAS)
     assert table.schema.field("lcf_supports").type == pa.list_(pa.int16())
     assert table.schema.field("span_robots").nullable
     assert not table.schema.field("lcf_robots").nullable

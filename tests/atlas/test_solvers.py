@@ -25,17 +25,7 @@ from knotopt.atlas.report.report import report_document
 from knotopt.atlas.report.results import Results, read_results
 from knotopt.atlas.report.solvers import solvers_table, wrong_answers
 from knotopt.atlas.run import run_atlas
-from knotopt.atlas.schema import (
-    ATLAS,
-    KNOTS,
-    MANIFEST,
-    PARTS,
-    SOLVER_TIMES,
-    SOLVERS,
-    TIMES,
-    Manifest,
-    Settings,
-)
+from knotopt.atlas.schema import MANIFEST, PARTS, File, Manifest, Settings
 from knotopt.atlas.solvers import PACKAGES, REFUSED
 from knotopt.atlas.store import read_manifest, read_rows
 from knotopt.document.columns import Row, names
@@ -61,7 +51,7 @@ def results(folder: Path) -> Results:
 
 
 def test_all_solvers_find_the_same(folder: Path) -> None:
-    atlas, rows = (read_rows(folder, name).to_pylist() for name in (ATLAS, SOLVERS))
+    atlas, rows = (read_rows(folder, name).to_pylist() for name in (File.ATLAS, File.SOLVERS))
     expected = [
         (row["cut"], formulation, solver, row[f"{formulation}_robots"], row[f"{formulation}_rows"])
         for row in atlas
@@ -75,7 +65,7 @@ def test_all_solvers_find_the_same(folder: Path) -> None:
     for row in rows:
         assert (row["status"], row["bound"]) == ("optimal", row["objective"])
         assert row["proven"] is row["satisfies"] is row["meets_definition"] is True
-    times = read_rows(folder, SOLVER_TIMES).to_pylist()
+    times = read_rows(folder, File.SOLVER_TIMES).to_pylist()
     for row, spent in zip(rows, times, strict=True):
         for key in ("number", "knot", "cut", "formulation", "solver"):
             assert row[key] == spent[key]
@@ -83,7 +73,7 @@ def test_all_solvers_find_the_same(folder: Path) -> None:
 
 
 def test_columns_say_what_they_hold(folder: Path) -> None:
-    for name in (SOLVERS, SOLVER_TIMES):
+    for name in (File.SOLVERS, File.SOLVER_TIMES):
         schema = read_rows(folder, name).schema
         assert tuple(schema.names) == names(FILES[name])
         for column in FILES[name]:
@@ -109,7 +99,12 @@ def test_without_solvers_a_folder_is_as_it_was(whole: Path) -> None:
         "paths",
         "check",
     ]
-    assert sorted(path.name for path in whole.iterdir()) == [ATLAS, KNOTS, MANIFEST, TIMES]
+    assert sorted(path.name for path in whole.iterdir()) == [
+        File.ATLAS,
+        File.KNOTS,
+        MANIFEST,
+        File.TIMES,
+    ]
     titles = [each.title for each in report_document(read_results(whole), {}).sections]
     assert "Solvers" not in titles
     assert "Flights" not in titles
@@ -158,7 +153,7 @@ def test_resumed(tmp_path: Path) -> None:
     run_atlas(tmp_path / "half", LIST[:3], settings, engine)
     assert engine.asked == [2, 1]
     assert contents(tmp_path / "half") == contents(tmp_path / "whole")
-    assert SOLVER_TIMES in contents(tmp_path / "half")
+    assert File.SOLVER_TIMES in contents(tmp_path / "half")
 
 
 @pytest.mark.slow
@@ -173,11 +168,11 @@ def test_killed_run_ends_like_others(tmp_path: Path) -> None:
     wait_for_parts(broken, 1, process)
     process.send_signal(signal.SIGKILL)
     assert ended(broken, process)[0] == -signal.SIGKILL
-    assert not (broken / ATLAS).exists()
+    assert not (broken / File.ATLAS).exists()
     assert ended(broken, start(broken, knots, *options))[0] == 0
     assert same_results(broken, whole)
-    assert (broken / SOLVERS).read_bytes() == (whole / SOLVERS).read_bytes()
-    assert read_rows(broken, SOLVER_TIMES).num_rows == 48
+    assert (broken / File.SOLVERS).read_bytes() == (whole / File.SOLVERS).read_bytes()
+    assert read_rows(broken, File.SOLVER_TIMES).num_rows == 48
 
 
 class Stub:
@@ -206,7 +201,7 @@ def answers(answer: Solution | Exception, monkeypatch: pytest.MonkeyPatch) -> li
         )
         result = measure_knot(LIST[0], Settings(check=1, solvers=("highs",)))
     solvers.warm.cache_clear()
-    return list(result.requested[SOLVERS])
+    return list(result.requested[File.SOLVERS])
 
 
 def test_sets_that_are_none(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -269,7 +264,7 @@ def test_section(results: Results) -> None:
 
 def test_files_that_do_not_fit(folder: Path, tmp_path: Path) -> None:
     shutil.copytree(folder, tmp_path / "run")
-    path = tmp_path / "run" / SOLVER_TIMES
+    path = tmp_path / "run" / File.SOLVER_TIMES
     path.write_bytes(store._to_bytes(pq.read_table(path).slice(1)))
     with pytest.raises(OutputError, match=r"solvers.parquet and solver_times.parquet do not have"):
         read_results(tmp_path / "run")

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from knotopt.atlas.schema import ATLAS, TIMES
+from knotopt.atlas.schema import File
 from knotopt.atlas.store import read_rows
 from knotopt.catalogue.lookup import find_knot
 from tests.helpers.atlas_process import ended, parts, same_results, start, wait_for_parts
@@ -36,7 +36,7 @@ def test_killed_and_interrupted_runs_end_like_others(tmp_path: Path) -> None:
     assert ended(broken, process) == (-signal.SIGKILL, "", "")
     killed = parts(broken)
     assert killed >= 2
-    assert not (broken / ATLAS).exists()
+    assert not (broken / File.ATLAS).exists()
 
     process = start(broken, NAMES, "--jobs", 1, "--check", 0, pauses=True)
     wait_for_parts(broken, killed + 2, process)
@@ -53,7 +53,7 @@ def test_killed_and_interrupted_runs_end_like_others(tmp_path: Path) -> None:
     status, _, errors = ended(broken, start(broken, NAMES, "--jobs", 1, "--check", 0))
     assert (status, errors) == (0, "")
     assert same_results(broken, whole)
-    assert read_rows(broken, TIMES).num_rows == 112
+    assert read_rows(broken, File.TIMES).num_rows == 112
 
 
 @pytest.mark.slow
@@ -68,7 +68,7 @@ def test_with_worker_processes(tmp_path: Path, how: signal.Signals) -> None:
     else:
         process.send_signal(how)
     assert ended(broken, process)[0] == (130 if how is signal.SIGINT else -how)
-    assert not (broken / ATLAS).exists()
+    assert not (broken / File.ATLAS).exists()
     assert ended(broken, start(broken, NAMES, "--jobs", 2))[0] == 0
     assert same_results(broken, whole)
 
@@ -81,7 +81,7 @@ def test_summary(cli: Cli, tmp_path: Path) -> None:
     assert facts["robots: baseline"] == "11.00"
     assert facts["smallest span"] == "none"
     assert facts["checked by definition"] == "16 rows, 0 wrong"
-    assert output.splitlines()[-1] == f"written: {tmp_path / 'run' / ATLAS}"
+    assert output.splitlines()[-1] == f"written: {tmp_path / 'run' / File.ATLAS}"
     assert cli("atlas", tmp_path / "run", *SMALL, "--jobs", 2, "--check", 1)[1] == output
 
 
@@ -90,7 +90,7 @@ def test_grids_of_a_folder(cli: Cli, tmp_path: Path) -> None:
     (tmp_path / "mine.json").write_text(json.dumps({"grid": marks}))
     status, _, errors = cli("atlas", tmp_path / "run", "--grids", tmp_path, "--jobs", 1, "--r", 1)
     assert (status, errors) == (0, "")
-    table = read_rows(tmp_path / "run", ATLAS)
+    table = read_rows(tmp_path / "run", File.ATLAS)
     assert table["knot"].to_pylist() == ["mine.json"] * 8
     assert table["crossing_number"].to_pylist() == [None] * 8
     assert json.loads(table.schema.metadata[b"knotopt"])["settings"]["openness"] == "1"
@@ -115,7 +115,7 @@ def test_wrong_input(cli: Cli, tmp_path: Path, arguments: list[str], words: str)
     assert status in (1, 2)
     assert output == ""
     assert words in " ".join(errors.replace("│", "").split())
-    assert not (folder / ATLAS).exists()
+    assert not (folder / File.ATLAS).exists()
 
 
 def test_existing_results_are_untouched(cli: Cli, tmp_path: Path) -> None:

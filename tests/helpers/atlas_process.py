@@ -8,7 +8,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from knotopt.atlas.schema import ATLAS, KNOTS, MANIFEST
+from knotopt.atlas.schema import MANIFEST, File
 
 WITH_PAUSES = """
 import time
@@ -59,4 +59,7 @@ def wait_for_parts(folder: Path, count: int, process: subprocess.Popen[str]) -> 
 
 
 def same_results(one: Path, other: Path) -> bool:
-    return all((one / n).read_bytes() == (other / n).read_bytes() for n in (ATLAS, KNOTS, MANIFEST))
+    return all(
+        (one / n).read_bytes() == (other / n).read_bytes()
+        for n in (File.ATLAS, File.KNOTS, MANIFEST)
+    )

@@ -9,7 +9,7 @@ from itertools import product
 import pytest
 
 from knotopt.atlas.columns import FILES
-from knotopt.atlas.schema import ATLAS, FLIGHTS, TIMES
+from knotopt.atlas.schema import File
 from knotopt.document.columns import check_rows, names
 from knotopt.supports.registry import FORMULATIONS
 from knotopt.tables import comparison, table1
@@ -30,7 +30,7 @@ methods.USUAL_PROGRAMS += (loops,)
 from knotopt.atlas.columns import FILES
 from knotopt.atlas.knot_list import knot_rows
 from knotopt.atlas.measure import measure_knot
-from knotopt.atlas.schema import ATLAS, Settings
+from knotopt.atlas.schema import File, Settings
 from knotopt.catalogue.lookup import find_knot
 from knotopt.document.columns import check_rows
 from knotopt.tables import comparison, table1
@@ -41,7 +41,7 @@ print(dict(zip(table.heads, table.rows[0]))["loops"])
 table = table1.tabulated([next(table1.compute_table1())]).document.tables[0]
 print(dict(zip(table.heads, table.rows[0]))["loops"])
 result = measure_knot(knot_rows([found])[0], Settings(check=1))
-check_rows(FILES[ATLAS], result.rows)
+check_rows(FILES[File.ATLAS], result.rows)
 print({(row["loops_robots"], row["opening_robots"], row["checked"]) for row in result.rows})
 """
 
@@ -62,7 +62,7 @@ def test_one_usual_program_for_each_formulation() -> None:
 
 def test_columns_are_the_same_wherever_they_stand() -> None:
     told: dict[str, str] = {}
-    tables = (comparison.COLUMNS, table1.COLUMNS, FILES[ATLAS], FILES[FLIGHTS])
+    tables = (comparison.COLUMNS, table1.COLUMNS, FILES[File.ATLAS], FILES[File.FLIGHTS])
     for method, columns in product((*HEURISTICS, *USUAL_PROGRAMS), tables):
         for column in columns:
             if column.name.startswith(f"{method.key}_"):
@@ -81,13 +81,13 @@ def test_columns_and_cells() -> None:
 
 
 def test_units_are_said_of_times() -> None:
-    for column in FILES[TIMES]:
+    for column in FILES[File.TIMES]:
         assert column.kind is not float or column.meaning.endswith(("[s]", "[MiB]"))
 
 
 def test_rows_have_the_columns_of_their_file() -> None:
-    row = dict.fromkeys(names(FILES[TIMES]))
-    check_rows(FILES[TIMES], [row])
+    row = dict.fromkeys(names(FILES[File.TIMES]))
+    check_rows(FILES[File.TIMES], [row])
     del row["cut"]
     with pytest.raises(ValueError, match="lacks, or has too much: cut, cuts"):
-        check_rows(FILES[TIMES], [row | {"cuts": 8}])
+        check_rows(FILES[File.TIMES], [row | {"cuts": 8}])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from knotopt.atlas.report.results import Results
-from knotopt.document.columns import Row, names
+from knotopt.document.columns import names
 from knotopt.document.csv import csv_text
 from knotopt.tables.methods import LAYERED, LCF, PROGRAMS, USUAL_PROGRAMS
 
@@ -30,11 +30,8 @@ def atlas_csv(results: Results) -> str:
     rows = results.rows
     known = (name for name in COLUMNS if name in rows.column_names)
     held = rows.select([name for name in known if rows[name].null_count < rows.num_rows])
-    return csv_text(held.column_names, map(_spaced, held.to_pylist()))
-
-
-def _spaced(row: Row) -> Row:
-    return {
-        name: " ".join(map(str, value)) if isinstance(value, list) else value
-        for name, value in row.items()
-    }
+    spaced = (
+        {name: " ".join(map(str, v)) if isinstance(v, list) else v for name, v in row.items()}
+        for row in held.to_pylist()
+    )
+    return csv_text(held.column_names, spaced)

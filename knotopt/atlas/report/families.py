@@ -8,6 +8,7 @@ import numpy as np
 
 from knotopt.atlas.report.invariants import TORUS, TWIST, Invariants
 from knotopt.atlas.report.results import Results
+from knotopt.atlas.schema import KnotRow
 from knotopt.document.cells import largest, mean, percent, whole
 from knotopt.document.model import NONE, Block, Section, Table, table_of
 
@@ -31,7 +32,7 @@ def families_section(results: Results, known: Mapping[str, Invariants]) -> Secti
             f"{_smallest_grids(results)} So compare within a row of the next table.",
             same_size,
         ]
-    named = [k for k, knot in enumerate(results.knots) if _named(results, k) & {*TORUS, *TWIST}]
+    named = [k for k, knot in enumerate(results.knots) if _name(knot) in TORUS + TWIST]
     if named:
         blocks.append(_named_table(results, named))
     return Section("Families", tuple(blocks))
@@ -39,10 +40,7 @@ def families_section(results: Results, known: Mapping[str, Invariants]) -> Secti
 
 def families_table(results: Results, known: Mapping[str, Invariants]) -> Table:
     """Sizes and mean robots by family."""
-    families: dict[str, Members] = {
-        "all": [True] * len(results.knots),
-        **_families(results, known),
-    }
+    families = {"all": [True] * len(results.knots), **_families(results, known)}
     return table_of(
         [
             [("family", name), *_cells(results, members)]
@@ -96,8 +94,8 @@ def _smallest_grids(results: Results) -> str:
 def _named_table(results: Results, named: Sequence[int]) -> Table:
     rows = []
     for k in named:
-        knot, names = results.knots[k], _named(results, k)
-        kinds = [w for w, family in (("torus", TORUS), ("twist", TWIST)) if names & {*family}]
+        knot = results.knots[k]
+        kinds = [w for w, family in (("torus", TORUS), ("twist", TWIST)) if knot.knot in family]
         rows.append(
             [
                 ("knot", knot.knot),
@@ -118,20 +116,16 @@ def _named_table(results: Results, named: Sequence[int]) -> Table:
 
 def _families(results: Results, known: Mapping[str, Invariants]) -> dict[str, Members]:
     """Which knots are in a family; None where it is not known."""
-    knots = results.knots
-    more = [known.get(knot.knot) if knot.crossing_number is not None else None for knot in knots]
+    names = list(map(_name, results.knots))
+    more = list(map(known.get, names))
     bridges = [each.bridge_index if each else None for each in more]
     pretzel = [each.is_pretzel if each else None for each in more]
-    listed = [bool(_named(results, k)) for k in range(len(knots))]
+    alternating = [knot.alternating for knot in results.knots]
     return {
-        "alternating": [knot.alternating for knot in knots],
-        "not alternating": _none_or_not([knot.alternating for knot in knots]),
-        "torus": [
-            k.knot in TORUS if there else None for k, there in zip(knots, listed, strict=True)
-        ],
-        "twist": [
-            k.knot in TWIST if there else None for k, there in zip(knots, listed, strict=True)
-        ],
+        "alternating": alternating,
+        "not alternating": _none_or_not(alternating),
+        "torus": [name in TORUS if name else None for name in names],
+        "twist": [name in TWIST if name else None for name in names],
         "two-bridge": [None if b is None else b == 2 for b in bridges],
         "three-bridge": [None if b is None else b == 3 for b in bridges],
         "four-bridge": [None if b is None else b == 4 for b in bridges],
@@ -158,10 +152,9 @@ def _cells(results: Results, members: Members) -> list[tuple[str, str]]:
     ]
 
 
-def _named(results: Results, knot: int) -> set[str]:
-    """The knot's name if it is one of the tables', whose names say what the knot is."""
-    row = results.knots[knot]
-    return set() if row.crossing_number is None else {row.knot}
+def _name(knot: KnotRow) -> str:
+    """The knot's name if it is one of the tables', whose names say what the knot is; else ""."""
+    return "" if knot.crossing_number is None else knot.knot
 
 
 def _none_or_not(members: Members) -> list[bool | None]:

@@ -7,7 +7,6 @@ from statistics import median
 from knotopt.atlas.report.results import Results
 from knotopt.atlas.report.robots import named_groups
 from knotopt.document.cells import percent
-from knotopt.document.columns import Row
 from knotopt.document.model import NONE, Block, Section, Table, table
 from knotopt.sim.trials import wilson_interval
 from knotopt.tables.methods import LCF, USUAL_PROGRAMS
@@ -53,15 +52,13 @@ def tied_table(results: Results) -> Table:
     for name, knots in named_groups(results):
         numbers = {results.knots[k].number for k in knots.tolist()}
         for kind, words in SETS.items():
-            chosen = [
-                row
-                for row in results.flights
-                if row["supports"] == kind and row["number"] in numbers
-            ]
+            of_kind = (row for row in results.flights if row["supports"] == kind)
+            chosen = [row for row in of_kind if row["number"] in numbers]
             if not chosen:
                 continue
             flown = [row for row in chosen if row["planned"]]
             tied = sum(row["tied"] for row in flown)
+            outcomes = [row["outcome"] for row in flown]
             rows.append(
                 [
                     name,
@@ -71,7 +68,7 @@ def tied_table(results: Results) -> Table:
                     f"{tied:,}",
                     percent([row["tied"] for row in flown]),
                     _interval(tied, len(flown)),
-                    *(f"{_outcomes(flown, outcome):,}" for outcome in OUTCOMES),
+                    *(f"{outcomes.count(outcome):,}" for outcome in OUTCOMES),
                 ]
             )
     return table(
@@ -111,7 +108,3 @@ def _interval(tied: int, flown: int) -> str:
         return NONE
     low, high = wilson_interval(tied, flown)
     return f"{100 * low:.0f} to {100 * high:.0f} %"
-
-
-def _outcomes(flown: list[Row], outcome: str) -> int:
-    return sum(row["outcome"] == outcome for row in flown)

@@ -9,19 +9,8 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 
-from knotopt.arrays import BoolArray, FloatArray, IntArray
-from knotopt.atlas.schema import (
-    ATLAS,
-    FLIGHT_TIMES,
-    FLIGHTS,
-    KNOTS,
-    PATHS,
-    SOLVER_TIMES,
-    SOLVERS,
-    TIMES,
-    KnotRow,
-    Manifest,
-)
+from knotopt.arrays import BoolArray, FloatArray
+from knotopt.atlas.schema import File, KnotRow, Manifest
 from knotopt.atlas.store import read_manifest, read_rows
 from knotopt.cable.cut import OUTER_CUTS
 from knotopt.document.columns import Row
@@ -82,17 +71,17 @@ class Results:
     @cached_property
     def paths(self) -> list[Row]:
         """Rows of the paths; none if the run was not asked for them."""
-        return self._listed(PATHS)
+        return self._listed(File.PATHS)
 
     @cached_property
     def solvers(self) -> list[Row]:
         """Rows of the solvers with their times; none if the run was not asked for them."""
-        return self._joined(SOLVERS, SOLVER_TIMES)
+        return self._joined(File.SOLVERS, File.SOLVER_TIMES)
 
     @cached_property
     def flights(self) -> list[Row]:
         """Rows of the flights with their times; none if the run was not asked for them."""
-        return self._joined(FLIGHTS, FLIGHT_TIMES)
+        return self._joined(File.FLIGHTS, File.FLIGHT_TIMES)
 
     @cached_property
     def methods(self) -> dict[str, str]:
@@ -114,16 +103,6 @@ class Results:
         """Where the smallest set of `opening` is proven, shape (K, 8)."""
         proven: BoolArray = self.cuts("opening_bound") == self.cuts("opening_robots")
         return proven
-
-    @cached_property
-    def crossing_numbers(self) -> dict[int | None, IntArray]:
-        """Indices of the knots of each crossing number, in order; None where no table says it."""
-        numbers = [knot.crossing_number for knot in self.knots]
-        order = sorted({n for n in numbers if n is not None})
-        return {
-            each: np.flatnonzero([n == each for n in numbers])
-            for each in (*order, *([None] if None in numbers else []))
-        }
 
     @property
     def size(self) -> str:
@@ -151,23 +130,25 @@ def read_results(folder: Path) -> Results:
         The folder holds no run, an unfinished one, or damaged files; or the solver found no set.
     """
     manifest = read_manifest(folder)
-    rows, times, listed = (read_rows(folder, name) for name in (ATLAS, TIMES, KNOTS))
-    requested = {name: read_rows(folder, name) for name in manifest.settings.requested}
+    rows, times, listed = (read_rows(folder, name) for name in (File.ATLAS, File.TIMES, File.KNOTS))
+    requested: dict[str, pa.Table] = {
+        name: read_rows(folder, name) for name in manifest.settings.requested
+    }
     knots = tuple(KnotRow(**_hashable(row)) for row in listed.to_pylist())
     numbers = np.repeat([knot.number for knot in knots], len(OUTER_CUTS))
     cuts = list(OUTER_CUTS) * len(knots)
-    for name, table in ((ATLAS, rows), (TIMES, times)):
+    for name, table in ((File.ATLAS, rows), (File.TIMES, times)):
         if table["cut"].to_pylist() != cuts or not np.array_equal(table["number"], numbers):
             raise OutputError(
                 f"{folder / name} does not have the {len(OUTER_CUTS)} outer cuts of every knot of "
-                f"{KNOTS} in their order: the run must be done again"
+                f"{File.KNOTS} in their order: the run must be done again"
             )
     if missing := rows["opening_robots"].null_count + rows["over_under_robots"].null_count:
         raise OutputError(
-            f"{folder / ATLAS}: {missing} smallest open sets were not found; opening_status and "
-            "over_under_status say why"
+            f"{folder / File.ATLAS}: {missing} smallest open sets were not found; opening_status "
+            "and over_under_status say why"
         )
-    for one, other in ((SOLVERS, SOLVER_TIMES), (FLIGHTS, FLIGHT_TIMES)):
+    for one, other in ((File.SOLVERS, File.SOLVER_TIMES), (File.FLIGHTS, File.FLIGHT_TIMES)):
         if one in requested and requested[one].num_rows != requested[other].num_rows:
             raise OutputError(
                 f"{folder / one} and {other} do not have the same rows: the run must be done again"

@@ -68,10 +68,9 @@ def distribution_table(results: Results, column: str) -> Table:
 
 
 def named_groups(results: Results) -> list[tuple[str, IntArray]]:
-    """IntArray of the knots of each crossing number, by what it is called, and of all."""
-    groups = [
-        ("not in a table" if number is None else str(number), knots)
-        for number, knots in results.crossing_numbers.items()
-    ]
-    everything = ("all", np.arange(len(results.knots)))
-    return [*groups, everything] if len(groups) > 1 else groups
+    """Indices of the knots of each crossing number, by what it is called, and of all."""
+    numbers = np.array([knot.crossing_number for knot in results.knots], dtype=float)
+    known, unknown = np.unique(numbers[~np.isnan(numbers)]), np.flatnonzero(np.isnan(numbers))
+    groups = [(f"{number:.0f}", np.flatnonzero(numbers == number)) for number in known]
+    groups += [("not in a table", unknown)] if unknown.size else []
+    return [*groups, ("all", np.arange(len(numbers)))] if len(groups) > 1 else groups

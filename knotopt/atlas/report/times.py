@@ -7,7 +7,7 @@ import numpy as np
 from knotopt.atlas.report.results import Results
 from knotopt.document.cells import percent
 from knotopt.document.model import Section, Table, table, table_of
-from knotopt.tables.comparison import path_medians
+from knotopt.tables.comparison import is_done, path_groups, path_medians
 from knotopt.tables.methods import PROGRAMS
 
 STEPS = {
@@ -72,21 +72,18 @@ def paths_section(results: Results) -> Section | None:
     """Medians of the paths' measures; None if the run has no paths."""
     if not results.paths:
         return None
-    rows = []
-    for supports in ("lcf", "opening"):
-        for method in ("relaxation", "nlp"):
-            paths = [p for p in results.paths if (p["supports"], p["method"]) == (supports, method)]
-            rows.append(
-                [
-                    ("supports", supports),
-                    ("method", method),
-                    ("paths", f"{len(paths):,}"),
-                    ("done", percent([p["status"] in ("solved", "converged") for p in paths])),
-                    ("same diagram", percent([path["same_diagram"] for path in paths])),
-                    ("same knot", percent([path["same_knot"] for path in paths])),
-                    *path_medians(paths),
-                ]
-            )
+    rows = [
+        [
+            ("supports", supports),
+            ("method", method),
+            ("paths", f"{len(paths):,}"),
+            ("done", percent(is_done(paths))),
+            ("same diagram", percent([path["same_diagram"] for path in paths])),
+            ("same knot", percent([path["same_knot"] for path in paths])),
+            *path_medians(paths),
+        ]
+        for (supports, method), paths in path_groups(results.paths).items()
+    ]
     return Section(
         "Cable paths",
         (
