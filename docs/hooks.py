@@ -1,7 +1,7 @@
 """What the pages show that lies elsewhere: pictures, the public names, the example notebooks.
 
-A picture under `drawn/` is made by the command that the gallery shows above it; one under
-`figures/` or `results/` is the one in `paper_results/figures` or `benchmarks/results`.
+A picture under `drawn/` is made by the command that the gallery shows above it. What lies outside
+of `docs/` is linked as in the repository, and lies in the site where `PLACES` says.
 """
 
 from __future__ import annotations
@@ -20,9 +20,15 @@ from pathlib import Path
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File, Files
+from mkdocs.structure.pages import Page
 
 ROOT = Path(__file__).resolve().parents[1]
-PICTURES = {"figures": ROOT / "paper_results/figures", "results": ROOT / "benchmarks/results"}
+PLACES = {
+    "paper_results/figures/": "figures/",
+    "benchmarks/results/": "results/",
+    "examples/": "examples/",
+    "formulations/README.md": "programs.md",
+}
 SUBJECTS = {
     "api": "From a knot to its supports and its flight",
     "diagram": "Grid diagrams",
@@ -39,11 +45,11 @@ OTHERS = "Further names"
 def on_files(files: Files, config: MkDocsConfig) -> Files:
     """Add what the pages show to the files of the site."""
     text = "".join(file.content_string for file in files.documentation_pages())
-    for folder, name in sorted(set(re.findall(r"\b(figures|results)/([\w.]+\.png)", text))):
-        source = PICTURES[folder] / name
+    for path in sorted(set(re.findall(r"\.\./([\w./]+\.png)", text))):
+        source = ROOT / path
         if not source.exists():
-            raise PluginError(f"a page shows {folder}/{name}, but there is no {source}")
-        files.append(File.generated(config, f"{folder}/{name}", abs_src_path=str(source)))
+            raise PluginError(f"a page shows {path}, but there is none")
+        files.append(File.generated(config, in_the_site(path), abs_src_path=str(source)))
     gallery = (ROOT / "docs/gallery.md").read_text("utf-8")
     for name, content in drawn(tuple(re.findall(r"^\$ (knotopt .*)$", gallery, re.MULTILINE))):
         files.append(File.generated(config, f"drawn/{name}", content=content))
@@ -52,6 +58,21 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
         uri = f"examples/{notebook.name}"
         files.append(File.generated(config, uri, abs_src_path=str(notebook)))
     return files
+
+
+def on_page_markdown(markdown: str, page: Page, **_: object) -> str:
+    """The links of a page out of `docs/` as they lead in the site."""
+    up = "../" * page.file.src_uri.count("/")
+    outside = rf"\]\({re.escape(up)}\.\./([^)]*)"
+    return re.sub(outside, lambda link: f"]({up}{in_the_site(link[1])}", markdown)
+
+
+def in_the_site(path: str) -> str:
+    """Where something of the repository lies in the site."""
+    for there, here in PLACES.items():
+        if path.startswith(there):
+            return here + path.removeprefix(there)
+    return f"../{path}"
 
 
 @lru_cache(maxsize=1)

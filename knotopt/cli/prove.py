@@ -84,7 +84,7 @@ def prove(
     claims = map(json.loads, proven)
     print_table(
         ("knot", "formulation", "r", "robots", "cut", "smallest over"),
-        ((*(claim[key] for key in said), f"{len(claim['bounds'])} cuts") for claim in claims),
+        ((*(claim[key] for key in said), _cuts(len(claim["bounds"]))) for claim in claims),
     )
     print_written(out)
 
@@ -156,6 +156,10 @@ def _accepted(verdict: CheckedCertificate) -> dict[str, Any]:
     }
 
 
+def _cuts(count: int) -> str:
+    return "1 cut" if count == 1 else f"{count} cuts"
+
+
 def _print_verdicts(accepted: list[dict[str, Any]], rejected: list[dict[str, Any]]) -> None:
     """Print what was accepted as a table, and why others were rejected."""
     if accepted:
@@ -166,7 +170,7 @@ def _print_verdicts(accepted: list[dict[str, Any]], rejected: list[dict[str, Any
                     *(each[key] for key in ("knot", "grid", "formulation")),
                     f"{each['openness']:g}",
                     *(each[key] for key in ("robots_after", "cut")),
-                    f"{'all ' * each['every_cut']}{each['cuts']} cuts",
+                    "all " * each["every_cut"] + _cuts(each["cuts"]),
                 )
                 for each in accepted
             ),
