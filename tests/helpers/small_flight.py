@@ -74,3 +74,17 @@ def flown_set(*verdicts: Verdict) -> FlownSet:
     plan = small_plan()
     first, *others = (Flight(plan, small_record(plan), verdict) for verdict in verdicts)
     return FlownSet(first, tuple(others))
+
+
+def crossed(record: FlightRecord, lift: float) -> FlightRecord:
+    """Two frames in which the last of three straight spans crosses the first, `lift` higher."""
+    corners = np.array([[0, 0, 0], [2, 2, 0], [2, 0, lift], [0, 2, lift]], dtype=float)
+    along = np.linspace(0, 3, 31)
+    cable = np.column_stack([np.interp(along, range(4), axis) for axis in corners.T])
+    return replace(
+        record,
+        times=record.times[:2],
+        clock=record.clock[:2],
+        cable=np.stack((cable, cable)),
+        held=np.array([0, 10, 20, 30]),
+    )

@@ -13,7 +13,7 @@ from PIL import Image
 from knotopt.plot.animation import FRAME_TIME, LAST_TIME, PIXELS, animate, views
 from knotopt.plot.flight import MARGIN, instants, seen_from_above
 from knotopt.viewer.colours import ramp
-from tests.helpers.small_flight import small_plan, small_record
+from tests.helpers.small_flight import crossed, small_plan, small_record
 
 PLAN = small_plan()
 RECORD = small_record(PLAN)
@@ -82,16 +82,7 @@ def test_all_that_is_still_to_be_seen_is_in_view() -> None:
 
 @pytest.mark.parametrize("lift", [1.0, -1.0])
 def test_the_upper_strand_is_whole(lift: float) -> None:
-    corners = np.array([[0, 0, 0], [2, 2, 0], [2, 0, lift], [0, 2, lift]], dtype=float)
-    along = np.linspace(0, 3, 31)
-    cable = np.column_stack([np.interp(along, range(4), axis) for axis in corners.T])
-    record = replace(
-        RECORD,
-        times=RECORD.times[:2],
-        clock=RECORD.clock[:2],
-        cable=np.stack((cable, cable)),
-        held=np.array([0, 10, 20, 30]),
-    )
+    record = crossed(RECORD, lift)
     frame = frames(animate(PLAN, record, frames=2))[-1]
     first, _, last, _ = ramp(4)
     upper, lower = (last, first) if lift > 0 else (first, last)

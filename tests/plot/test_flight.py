@@ -13,7 +13,7 @@ from matplotlib.colors import to_hex
 from knotopt.plot.figures import save_figure
 from knotopt.plot.flight import flight_figure, strip_figure
 from knotopt.viewer.colours import ramp
-from tests.helpers.small_flight import small_plan, small_record
+from tests.helpers.small_flight import crossed, small_plan, small_record
 
 PLAN = small_plan()
 RECORD = small_record(PLAN)
@@ -66,16 +66,7 @@ def test_the_strip_says_what_is_pulled_tight_and_nothing_else() -> None:
 
 @pytest.mark.parametrize("lift", [5.0, -5.0])
 def test_what_is_higher_is_drawn_later(lift: float) -> None:
-    corners = np.array([[0, 0, 0], [2, 2, 0], [2, 0, lift], [0, 2, lift]], dtype=float)
-    along = np.linspace(0, 3, 31)
-    cable = np.column_stack([np.interp(along, range(4), axis) for axis in corners.T])
-    record = replace(
-        RECORD,
-        times=RECORD.times[:2],
-        clock=RECORD.clock[:2],
-        cable=np.stack((cable, cable)),
-        held=np.array([0, 10, 20, 30]),
-    )
+    record = crossed(RECORD, lift)
     drawn = strip_figure(record, PLAN, count=1).axes[0].collections[0].get_colors()[1::2]
     first, last = (0, 2) if lift > 0 else (2, 0)
     order = [ramp(4).index(to_hex(colour)) for colour in drawn]
