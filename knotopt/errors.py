@@ -13,6 +13,10 @@ class GridError(KnotoptError):
     """A grid diagram that is not one: the message names the row, column or entry."""
 
 
+class DiagramError(KnotoptError):
+    """A code that is no planar diagram of one knot: the message names the crossing or entry."""
+
+
 class MoveError(KnotoptError):
     """A Cromwell move that does not apply to this grid diagram."""
 

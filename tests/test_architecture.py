@@ -27,6 +27,7 @@ ALLOWED: Mapping[str, str] = {
     "document": "errors arrays",
     # Knots, cables, ropes.
     "diagram": "errors arrays",
+    "planar": "errors",
     "cable": "errors arrays diagram",
     "catalogue": "errors files diagram",
     "topology": "errors arrays cable catalogue",
