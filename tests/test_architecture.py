@@ -29,13 +29,14 @@ ALLOWED: Mapping[str, str] = {
     "diagram": "errors arrays",
     "planar": "errors",
     "cable": "errors arrays diagram",
+    "search": "errors diagram",
     "catalogue": "errors files diagram",
     "topology": "errors arrays cable",
     "reading": "errors diagram planar cable catalogue topology",
     # The judges.
     "verify": "errors arrays topology",
     # The makers, each with what its results are judged by.
-    "supports": "formulations errors arrays diagram cable verify",
+    "supports": "formulations errors arrays diagram search cable verify",
     "path": "formulations errors arrays ranges cable topology verify supports",
     "flight": "formulations errors arrays ranges diagram cable topology verify supports path",
     "sim": "errors arrays ranges diagram cable catalogue verify flight",
@@ -49,11 +50,11 @@ ALLOWED: Mapping[str, str] = {
     "atlas": "formulations knotopt errors arrays files document diagram cable catalogue reading "
     "verify supports flight sim plot tables",
     "api": "formulations errors diagram cable reading supports path flight mission",
-    "cli": "formulations knotopt errors files document diagram cable catalogue topology "
+    "cli": "formulations knotopt errors files document diagram search cable catalogue topology "
     "reading verify supports path flight sim rehearsal plot mission tables atlas",
     "__main__": "cli",
-    "benchmarks": "formulations errors arrays files document diagram cable catalogue topology "
-    "reading verify supports path flight sim rehearsal plot mission tables atlas cli",
+    "benchmarks": "formulations errors arrays files document diagram search cable catalogue "
+    "topology reading verify supports path flight sim rehearsal plot mission tables atlas cli",
 }
 """What each package, or module right in `knotopt`, may import of the others; lower ones first."""
 
