@@ -76,6 +76,7 @@ def run(diagram: GridDiagram, number: int, seed: int = 0, *, compile: bool | Non
     --------
     >>> from knotopt.diagram.families import torus_knot
     >>> [found.counts for found in run(torus_knot(3, 4), 0).found][:2]
+    [(3, 8, 9), (4, 8, 7)]
     """
     widest = diagram.size + ROOM
     if compile is None:
