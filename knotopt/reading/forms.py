@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from knotopt.reading import marks, matrix, names
+from knotopt.reading import braid, dt, gauss, marks, matrix, names, pd
 from knotopt.reading.content import Content
 from knotopt.reading.record import Asked, Reading
 
@@ -52,4 +52,8 @@ FORMS: tuple[Form, ...] = (
         ("grid_notation",),
         only_named=True,
     ),
+    Form("pd", "PD code", pd.read, ("pd", "pd_code", "pd_notation")),
+    Form("dt", "DT code", dt.read, ("dt", "dt_code", "dt_notation")),
+    Form("gauss", "Gauss code", gauss.read, ("gauss", "gauss_code", "gauss_notation")),
+    Form("braid", "braid word", braid.read, ("braid", "br", "braid_word", "braid_notation")),
 )
