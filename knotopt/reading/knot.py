@@ -9,10 +9,11 @@ from knotopt.diagram.grid import GridDiagram
 from knotopt.diagram.simplify import simplify
 from knotopt.errors import FileFormatError, KnotoptError
 from knotopt.planar.planar_diagram import PlanarDiagram
-from knotopt.reading import names
+from knotopt.reading import xo
 from knotopt.reading.content import Content
 from knotopt.reading.forms import FORMS, Form
 from knotopt.reading.lists import Lists
+from knotopt.reading.miss import miss
 from knotopt.reading.over import COLUMNS, ROWS, mirrored
 from knotopt.reading.record import Asked, NamedDiagram, Reading
 from knotopt.reading.source import Source, read_source
@@ -101,9 +102,10 @@ def _read(content: Content, asked: Asked, only: Form | None) -> tuple[Reading, s
                 return found, form.title
     if first is not None:
         raise first
-    if only is not None:
-        raise FileFormatError(f"this is no {only.title}")
-    raise names.unknown(content.text)
+    if len(forms) == 1:
+        where = f'under the key "{content.key}" there' if content.key else "this"
+        raise FileFormatError(f"{where} is no {forms[0].title}")
+    raise miss(content)
 
 
 def _under_key(content: Content) -> tuple[Content, Form | None]:
@@ -113,6 +115,8 @@ def _under_key(content: Content) -> tuple[Content, Form | None]:
         for name in form.keys:
             if name in by_name:
                 return content.inside(name, content.value[by_name[name]]), form
+    if any(by_name.keys() >= {*pair} for pair in xo.PAIRS_OF_KEYS):
+        return content, _form_named("xo")
     found = ", ".join(map(repr, content.value)) or "none"
     raise FileFormatError(f'expected a key such as "grid", "matrix" or "pd_code", found {found}')
 
@@ -124,13 +128,21 @@ def _finished(found: Reading, title: str, source: Source, *, mirror: bool) -> Na
         from knotopt.planar.grid_drawing import draw_grid  # type: ignore[import-not-found]
 
         diagram = simplify(draw_grid(diagram))
+    name, prime_knot = found.name or source.name or title, found.prime_knot
     if mirror:
-        diagram = mirrored(diagram)
+        diagram, prime_knot = mirrored(diagram), None
         notes.append("mirror image, as asked")
-    name = found.name or source.name or title
-    words = found.source or source.words
-    prime_knot = None if mirror else found.prime_knot
-    return NamedDiagram(name, diagram, words, prime_knot, title, tuple(notes))
+        if found.name:
+            name = name[1:] if name.startswith("m") else f"m{name}"
+    return NamedDiagram(
+        name,
+        diagram,
+        found.source or source.words,
+        prime_knot,
+        title,
+        tuple(notes),
+        found.ambiguous and not mirror,
+    )
 
 
 def _checked_over(over: str | None) -> str | None:
