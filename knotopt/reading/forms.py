@@ -52,10 +52,15 @@ FORMS: tuple[Form, ...] = (
         ("grid_notation",),
         only_named=True,
     ),
-    Form("xo", "grid of X and O", xo.read),
-    Form("arc", "arc presentation", arc.read, ("arc_notation", "arc_presentation", "arcs", "arc")),
     Form("pd", "PD code", pd.read, ("pd", "pd_code", "pd_notation")),
     Form("dt", "DT code", dt.read, ("dt", "dt_code", "dt_notation")),
-    Form("gauss", "Gauss code", gauss.read, ("gauss", "gauss_code", "gauss_notation")),
+    Form(
+        "gauss",
+        "Gauss code",
+        gauss.read,
+        ("gauss", "gauss_code", "gauss_notation", "oriented_gauss_code"),
+    ),
+    Form("xo", "grid of X and O", xo.read),
+    Form("arc", "arc presentation", arc.read, ("arc_notation", "arc_presentation", "arcs", "arc")),
     Form("braid", "braid word", braid.read, ("braid", "br", "braid_word", "braid_notation")),
 )
