@@ -63,7 +63,7 @@ def read_knot(
     ...
     knotopt.errors.UnknownKnotError: no knot is named '8_22'; nearest: 8_2, ...
     """
-    asked = Asked(_checked_over(over))
+    asked = Asked(_checked_over(over), form)
     only = _form_named(form)
     if isinstance(knot, NamedDiagram):
         return _mirrored(knot) if mirror else knot
