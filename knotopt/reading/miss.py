@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 
 from knotopt.errors import FileFormatError, KnotoptError
-from knotopt.reading import names
 from knotopt.reading.content import Content
+from knotopt.reading.near_names import unknown
 
 _LONGEST_NAME = 60
 _OPENING, _CLOSING = "[({", "])}"
@@ -29,10 +29,10 @@ def miss(content: Content) -> KnotoptError:
                 f"{len(rows)} rows of {len(rows[0])}, but no matrix, marks, arc presentation, PD "
                 "code or curve"
             )
-        if not isinstance(content.value, str | int):
+        if not isinstance(content.value, str | int) and re.search(r"[\[({]", text):
             return FileFormatError("lists, but not those of a grid, a code or a curve")
     if "\n" not in text and len(text) <= _LONGEST_NAME and not re.search(r"[\[{]", text):
-        return names.unknown(text)
+        return unknown(text)
     return FileFormatError(_bracket(text) or _line(content) or f"no knot: {_shown(text)}")
 
 
