@@ -27,7 +27,7 @@ ALLOWED: Mapping[str, str] = {
     "document": "errors arrays",
     # Knots, cables, ropes.
     "diagram": "errors arrays",
-    "planar": "errors",
+    "planar": "errors arrays",
     "cable": "errors arrays diagram",
     "catalogue": "errors files diagram",
     "topology": "errors arrays cable catalogue",
