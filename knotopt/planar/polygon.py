@@ -10,6 +10,7 @@ doi:10.1007/PL00009321, and where these leave doubt, in whole numbers.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from functools import cached_property
 
@@ -19,6 +20,7 @@ from knotopt.arrays import BoolArray, FloatArray, IntArray
 
 Point = tuple[int, int, int]
 ROUNDING = 8e-16  # of a 3 x 3 determinant of differences, relative to its products
+ROW = 32  # segments whose boxes are looked at together
 UNDERFLOW = 1e-290  # of products of coordinates below 2, whose differences may be this far off
 
 
@@ -79,116 +81,123 @@ def without_spare_corners(
     >>> without_spare_corners(square, closed=True).tolist()
     [1, 2, 3]
     """
-    polygon = _Polygon(points, fixed, closed=closed)
-    while polygon.sweep():
-        pass
-    return np.array(polygon.corners(), dtype=np.int64)
+    places = Corners(np.vstack([points, *(tip[None] for _, tip in fixed)]))
+    kept = list(range(len(points)))
+    while True:
+        left = _Sweep(places, kept, [at for at, _ in fixed], closed=closed).corners()
+        if len(left) == len(kept):
+            return np.array(kept, dtype=np.int64)
+        kept = left
 
 
-class _Polygon:
-    """A polygon that loses corners: a ring or chain of points, and the boxes of its segments."""
+class _Sweep:
+    """One look at every corner of a polygon; segments are found by their boxes.
+
+    Places are the polygon's corners and, after them, the tips of what is fixed. Segment k runs from
+    corner k to the next one that is left; those that are fixed come last.
+    """
 
     def __init__(
-        self, points: FloatArray, fixed: Sequence[tuple[int, FloatArray]], *, closed: bool
+        self, places: Corners, kept: list[int], fixed: Sequence[int], *, closed: bool
     ) -> None:
-        count = self._count = len(points)
+        count = len(kept)
+        tips = len(places.points) - len(fixed) + np.arange(len(fixed))
+        self._kept = kept
         self._closed = closed
-        self._places = Corners(np.vstack([points, *(tip[None] for _, tip in fixed)]))
-        self._after = np.append(np.arange(1, count), 0)
-        self._before = np.append(count - 1, np.arange(count - 1))
-        self._left = count
-        # Segment k runs from point k; those of the fixed ones come last.
-        self._start = np.concatenate((np.arange(count), [at for at, _ in fixed])).astype(np.int64)
-        self._end = np.concatenate((self._after, count + np.arange(len(fixed)))).astype(np.int64)
-        ends = self._places.points[[self._start, self._end]]
-        self._low, self._high = ends.min(axis=0).T.copy(), ends.max(axis=0).T.copy()
+        self._points = places.points[np.concatenate((kept, tips)).astype(np.int64)]
+        self._exact = [places.exact[k] for k in (*kept, *tips.tolist())]
+        self._after = [*range(1, count), 0]
+        self._before = [count - 1, *range(count - 1)]
+        starts = [kept.index(at) for at in fixed]
+        self._start = np.array([*range(count), *starts], dtype=np.int64)
+        self._end = np.array([*self._after, *range(count, count + len(fixed))], dtype=np.int64)
+        ends = self._points[[self._start, self._end]]
+        # Padded to whole rows of segments, each row with the box of them all.
+        rows = math.ceil(len(self._start) / ROW)
+        self._low = np.full((3, rows * ROW), np.inf)
+        self._high = -self._low
+        self._low[:, : len(self._start)] = ends.min(axis=0).T
+        self._high[:, : len(self._start)] = ends.max(axis=0).T
         if not closed:
-            self._drop(count - 1)
+            self._low[:, count - 1], self._high[:, count - 1] = np.inf, -np.inf
+        self._row_low = self._low.reshape(3, rows, ROW).min(axis=2)
+        self._row_high = self._high.reshape(3, rows, ROW).max(axis=2)
 
     def corners(self) -> list[int]:
-        """The corners that are left, in order."""
-        here, found = 0, []
-        if self._closed:
-            while self._after[self._before[here]] != here:  # the first point may be gone
-                here += 1
-        for _ in range(self._left):
-            found.append(int(here))
-            here = int(self._after[here])
-        return found
-
-    def sweep(self) -> int:
-        """Try every corner once; return how many are left out."""
-        gone = 0
-        corners = self.corners()
-        if not self._closed:
-            corners = corners[1:-1]
+        """The corners that stay when each has been tried, by their numbers in all the points."""
+        gone: set[int] = set()
+        left = count = len(self._kept)
         skipped = -1
-        for b in corners:
-            if self._closed and self._left <= 3:
+        for b in range(count) if self._closed else range(1, count - 1):
+            if self._closed and left <= 3:
                 break
-            # After a corner goes its neighbour is left for the next time: needles are met by more.
+            # After a corner goes its neighbour is left for the next time: needles meet more.
             if b != skipped and self._is_spare(b):
+                skipped = self._after[b]
                 self._leave_out(b)
-                skipped = int(self._after[b])
-                gone += 1
-        return gone
+                gone.add(b)
+                left -= 1
+        return [corner for k, corner in enumerate(self._kept) if k not in gone]
 
     def _leave_out(self, b: int) -> None:
         a, c = self._before[b], self._after[b]
         self._after[a], self._before[c] = c, a
         self._end[a] = c
-        ends = self._places.points[[a, c]]
+        ends = self._points[[a, c]]
+        row = a // ROW
         self._low[:, a], self._high[:, a] = ends.min(axis=0), ends.max(axis=0)
-        self._drop(b)
-        self._left -= 1
+        self._row_low[:, row] = np.minimum(self._row_low[:, row], self._low[:, a])
+        self._row_high[:, row] = np.maximum(self._row_high[:, row], self._high[:, a])
+        self._low[:, b], self._high[:, b] = np.inf, -np.inf
 
-    def _drop(self, segment: int) -> None:
-        self._low[:, segment], self._high[:, segment] = np.inf, -np.inf
+    def _others(self, low: FloatArray, high: FloatArray, a: int, b: int) -> IntArray:
+        """The segments whose boxes meet a box, but for a and b."""
+        rows = np.flatnonzero(_overlap(self._row_low, self._row_high, low, high))
+        near = (rows[:, None] * ROW + np.arange(ROW)).ravel()
+        near = near[_overlap(self._low[:, near], self._high[:, near], low, high)]
+        others: IntArray = near[(near != a) & (near != b)]
+        return others
 
     def _is_spare(self, b: int) -> bool:
         """Whether nothing meets the triangle of a corner and its neighbours but at these two."""
-        a, c = int(self._before[b]), int(self._after[b])
-        triangle = self._places.points[[a, b, c]]
-        low, high = triangle.min(axis=0), triangle.max(axis=0)
-        near = (self._low[0] <= high[0]) & (self._high[0] >= low[0])
-        for axis in (1, 2):
-            near &= (self._low[axis] <= high[axis]) & (self._high[axis] >= low[axis])
-        near[[a, b]] = False
-        others = np.flatnonzero(near)
-        start, end = self._start[others], self._end[others]
-        shared = (start == a) | (start == c) | (end == a) | (end == c)
-        missed = self._surely_missed(triangle, start, end, shared)
-        if missed.all():
-            return True
-        exact = self._places.exact
+        a, c = self._before[b], self._after[b]
+        exact = self._exact
         corner = exact[a], exact[b], exact[c]
         if _is_between(*corner):
             return True  # the polygon stays the same
-        for p, q in zip(start[~missed].tolist(), end[~missed].tolist(), strict=True):
-            if p in (a, c) and q in (a, c):
+        triangle = self._points[[a, b, c]]
+        others = self._others(triangle.min(axis=0), triangle.max(axis=0), a, b)
+        start, end = self._start[others], self._end[others]
+        shared = (start == a) | (start == c) | (end == a) | (end == c)
+        for p, q in zip(start[shared].tolist(), end[shared].tolist(), strict=True):
+            at_c, tip = c in (p, q), q if p in (a, c) else p
+            if _leads_inside(corner if at_c else corner[::-1], exact[tip]):
                 return False
-            if p in (a, c) or q in (a, c):
-                tip = exact[q] if p in (a, c) else exact[p]
-                meets = _leads_inside(corner if {p, q} & {c} else corner[::-1], tip)
-            else:
-                meets = _meets(corner, exact[p], exact[q])
-            if meets:
-                return False
-        return True
+        start, end = start[~shared], end[~shared]
+        doubtful = ~self._surely_missed(triangle, start, end)
+        return not any(
+            _meets(corner, exact[p], exact[q])
+            for p, q in zip(start[doubtful].tolist(), end[doubtful].tolist(), strict=True)
+        )
 
-    def _surely_missed(
-        self, triangle: FloatArray, start: IntArray, end: IntArray, shared: BoolArray
-    ) -> BoolArray:
-        """Which segments surely miss the triangle; those that share a corner, but for that."""
+    def _surely_missed(self, triangle: FloatArray, start: IntArray, end: IntArray) -> BoolArray:
+        """Which segments surely miss the triangle."""
+        if not len(start):
+            return np.zeros(0, dtype=np.bool_)
         a, b, c = triangle
-        p, q = self._places.points[start], self._places.points[end]
-        above_p, above_q = _side(a, b, c, p), _side(a, b, c, q)
+        p, q = self._points[start], self._points[end]
         around = np.stack([_side(p, q, a, b), _side(p, q, b, c), _side(p, q, c, a)])
-        beside = (around.max(axis=0, initial=0) > 0) & (around.min(axis=0, initial=0) < 0)
-        # One end of a shared segment is in the plane; the other one, if surely not, is elsewhere.
-        off_plane = np.where(shared, (above_p != 0) | (above_q != 0), above_p * above_q > 0)
-        missed: BoolArray = off_plane | (beside & ~shared)
+        beside = (around.max(axis=0) > 0) & (around.min(axis=0) < 0)
+        missed: BoolArray = beside | (_side(a, b, c, p) * _side(a, b, c, q) > 0)
         return missed
+
+
+def _overlap(low: FloatArray, high: FloatArray, least: FloatArray, most: FloatArray) -> BoolArray:
+    """Which boxes, shapes (3, n), meet one."""
+    found: BoolArray = (low[0] <= most[0]) & (high[0] >= least[0])
+    for axis in (1, 2):
+        found &= (low[axis] <= most[axis]) & (high[axis] >= least[axis])
+    return found
 
 
 def _side(a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray) -> FloatArray:

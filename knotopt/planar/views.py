@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
+from operator import itemgetter
 
 import numpy as np
 
@@ -32,6 +33,10 @@ FINENESS = 256  # of directions: their slopes are whole numbers of such parts
 MOST_CROSSINGS = 3000  # of a view that is worked out: a second
 SURE = 128 * float(np.finfo(np.float64).eps)  # of areas between points within 2 of the origin
 BLOCK = 1024  # segments whose boxes are compared at once with those of all others
+
+
+Pairs = list[tuple[int, int]]
+"""Of segments i < j that cross."""
 
 
 class CurveError(DiagramError):
@@ -82,20 +87,22 @@ def closed_view(points: FloatArray) -> View:
         if is_straight(*corners.exact):
             raise CurveError("the points of the curve lie on one line")
         return View(PlanarDiagram(()), (0.0, 0.0, 1.0))
-    best: tuple[list[Crossing], Direction] | None = None
     problem: _NoViewError | None = None
+    views: list[tuple[int, Direction, Pairs]] = []
     for direction in _directions():
         try:
-            code = _seen(corners, direction, closed=True)
+            pairs = _crossing_pairs(corners, direction, closed=True)
         except _NoViewError as error:
             problem = error
-            continue
-        if best is None or len(code) < len(best[0]):
-            best = code, direction
-    if best is None:
-        assert problem is not None
-        raise CurveError(problem.words(kept))
-    return View(PlanarDiagram(tuple(best[0])), best[1].vector)
+        else:
+            views.append((len(pairs), direction, pairs))
+    for _, direction, pairs in sorted(views, key=itemgetter(0)):
+        try:
+            return View(_diagram(corners, direction, pairs), direction.vector)
+        except _NoViewError as error:
+            problem = error
+    assert problem is not None
+    raise CurveError(problem.words(kept))
 
 
 def open_view(points: FloatArray) -> View:
@@ -118,27 +125,24 @@ def open_view(points: FloatArray) -> View:
     ----------
     V. Turaev, "Knotoids", Osaka Journal of Mathematics 49 (2012), 195-223.
     """
-    problem: _NoViewError | None = None
+    problem, apart = None, False
     reach = 4 * float(np.abs(points).max())
     for direction in _directions():
         # What is led past an end, above or below it, changes the knotoid.
         away = reach * np.array(direction.vector)
         ends = [(at, points[at] + way) for at in (0, len(points) - 1) for way in (away, -away)]
         kept = without_spare_corners(points, closed=False, fixed=ends)
+        corners = Corners(points[kept])
         try:
-            code = _seen(Corners(points[kept]), direction, closed=False)
+            pairs = _crossing_pairs(corners, direction, closed=False)
+            return View(_diagram(corners, direction, pairs), direction.vector)
         except _NoViewError as error:
-            problem = error
-            seen_from = kept
-            continue
-        try:
-            return View(PlanarDiagram(tuple(code)), direction.vector)
+            problem = problem or error.words(kept)
         except DiagramError:
-            # Ends in different faces can only be joined on a handle of the plane.
-            problem = None
-            continue
-    if problem is not None:
-        raise CurveError(problem.words(seen_from))
+            # Ends in different faces could only be joined on a handle of the plane.
+            apart = True
+    if problem is not None and not apart:
+        raise CurveError(problem)
     raise CurveError(
         f"the curve is open, and in none of {VIEWS} views do its two ends lie in one face of the "
         "diagram, where they could be joined: lead them out of the knot, or close the curve"
@@ -200,19 +204,19 @@ class _NoViewError(Exception):
 _MEETS = "meets itself"
 
 
-def _seen(corners: Corners, direction: Direction, *, closed: bool) -> list[Crossing]:
-    """The planar diagram code of what is seen; of an open polygon, with its ends joined unseen.
+def _diagram(corners: Corners, direction: Direction, pairs: Pairs) -> PlanarDiagram:
+    """What is seen, from the pairs of segments that cross; an open polygon's ends are joined.
 
     Raises
     ------
     _NoViewError
-        Strands touch in this view or in space, or there are too many crossings.
+        Strands meet in space, or three of them in this view, or there are too many crossings.
+    DiagramError
+        The ends of an open polygon lie in different faces.
     """
-    pairs = _crossing_pairs(corners, direction, closed=closed)
     if len(pairs) > MOST_CROSSINGS:
         raise _NoViewError(
-            f"has {len(pairs)} crossings in a view, and no view was found with at most "
-            f"{MOST_CROSSINGS}"
+            f"has more than {MOST_CROSSINGS} crossings in every view, after simplification"
         )
     flat = _Plan(corners, direction)
     count = len(corners.exact)
@@ -241,7 +245,7 @@ def _seen(corners: Corners, direction: Direction, *, closed: bool) -> list[Cross
         after_under, after_over = (under + 1) % len(visits), (over + 1) % len(visits)
         right, left_edge = (after_over, over) if sign > 0 else (over, after_over)
         code.append((under, right, after_under, left_edge))
-    return code
+    return PlanarDiagram(tuple(code))
 
 
 class _Plan:
@@ -267,9 +271,7 @@ class _Plan:
         return (bx - ax) * (cx - bx) + (by - ay) * (cy - by) > 0
 
 
-def _crossing_pairs(
-    corners: Corners, direction: Direction, *, closed: bool
-) -> list[tuple[int, int]]:
+def _crossing_pairs(corners: Corners, direction: Direction, *, closed: bool) -> Pairs:
     """The pairs of segments i < j that cross, each in a point inside of both."""
     i, j, k = direction.axes
     slope = np.array([direction.east, direction.north]) / FINENESS
@@ -281,7 +283,7 @@ def _crossing_pairs(
         if not plan.runs_on(corner - 1, corner, (corner + 1) % count):
             raise _NoViewError(_MEETS, (corner - 1) % count, corner)
     start, end = flat[:segments], np.roll(flat, -1, axis=0)[:segments]
-    found: list[tuple[int, int]] = []
+    found: Pairs = []
     for first, second in _near(start, end):
         apart = (second > first + 1) & ~(closed & (first == 0) & (second == segments - 1))
         a, b = first[apart], second[apart]
