@@ -129,12 +129,12 @@ def _list(
     knots: list[str] | None, grids: Path | None, *, catalogue: bool, knotinfo: bool
 ) -> tuple[KnotRow, ...]:
     from knotopt.atlas.knot_list import catalogue_rows, folder_rows, knot_rows
-    from knotopt.catalogue.lookup import find_knot
+    from knotopt.reading.knot import read_knot
 
     if sum(map(bool, (knots, grids, catalogue, knotinfo))) > 1:
         refuse("KNOT...", "give one of: knots, --catalogue, --knotinfo, --grids")
     if knots:
-        return knot_rows(map(find_knot, knots))
+        return knot_rows(map(read_knot, knots))
     return folder_rows(grids) if grids else catalogue_rows(knotinfo=knotinfo)
 
 

@@ -125,7 +125,7 @@ def fly(
 
     Example: knotopt fly 3 --sim --out trefoil
     """
-    from knotopt.catalogue.lookup import find_knot
+    from knotopt.reading.knot import read_knot
     from knotopt.supports.selection import equally_small
 
     options.check_choice("--schedule", schedule, SCHEDULES)
@@ -146,7 +146,7 @@ def fly(
     disturbances = DisturbedFlights(**disturbed).disturbances()
     _check_surroundings(out, sim=sim)
 
-    named = find_knot(knot)
+    named = read_knot(knot)
     sets = equally_small(named.diagram, supports, cut, requirements)
     request = FlightRequest(named.name, Path(supports).name, world, limits, schedule)
     mission = _mission(sets, request, disturbances, tighten, sim=sim)

@@ -30,11 +30,11 @@ def lcf(
     Example: knotopt lcf '7 Var2' --cut best --plot supports.png
     """
     from knotopt.cable.cut import Cut, crossing_free_cuts
-    from knotopt.catalogue.lookup import find_knot
     from knotopt.cli.drawing import print_supports
+    from knotopt.reading.knot import read_knot
     from knotopt.supports.lcf import best_cut, lcf_by_cut
 
-    named = find_knot(knot)
+    named = read_knot(knot)
     if cut == "all":
         if plot is not None:
             options.refuse("--plot", "draws one cut: give --cut best or a cut's name")

@@ -19,7 +19,7 @@ from knotopt.errors import OutputError, SolverError
 from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
-    from knotopt.catalogue.lookup import NamedDiagram
+    from knotopt.reading.record import NamedDiagram
 
 
 class PictureFormat(StrEnum):
@@ -137,14 +137,14 @@ def check_suffix(path: Path | None, what: str, suffixes: Collection[str]) -> Non
         raise OutputError(f"{path}: {what} written as {', '.join(suffixes)}")
 
 
-def find_knots(names: list[str] | None, *, catalogue: bool) -> list[NamedDiagram]:
+def read_knots(names: list[str] | None, *, catalogue: bool) -> list[NamedDiagram]:
     """The knots named, or all of the catalogue."""
     from knotopt.catalogue.knots import shipped_knots
-    from knotopt.catalogue.lookup import find_knot
+    from knotopt.reading.knot import read_knot
 
     if catalogue == bool(names):
         refuse("KNOT...", "give knots, or --catalogue")
-    return [find_knot(name) for name in (shipped_knots() if catalogue else names or ())]
+    return [read_knot(name) for name in (shipped_knots() if catalogue else names or ())]
 
 
 def solver_limits(

@@ -90,9 +90,9 @@ def path(
 
     Example: knotopt path 9 --supports lcf --method both --plot path.png
     """
-    from knotopt.catalogue.lookup import find_knot
     from knotopt.path.optimise import optimise_path
     from knotopt.path.relaxation import relaxed_path
+    from knotopt.reading.knot import read_knot
     from knotopt.supports.selection import choose_supports
 
     options.check_choice("--method", method, METHODS)
@@ -109,7 +109,7 @@ def path(
     )
     if world is not None:
         asked = world.requirements(asked)
-    named = find_knot(knot)
+    named = read_knot(knot)
     chosen = choose_supports(named.diagram, supports, cut, Requirements(formulation, r))
     results: list[PathResult] = []
     if method != "nlp":

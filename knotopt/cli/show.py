@@ -12,7 +12,7 @@ from knotopt.cli.printing import print_facts, print_json, print_written
 
 if TYPE_CHECKING:
     from knotopt.cable.cable import Cable
-    from knotopt.catalogue.lookup import NamedDiagram
+    from knotopt.reading.record import NamedDiagram
 
 MAX_CROSSINGS = 120  # of an Alexander polynomial computed here: about a second
 
@@ -35,11 +35,11 @@ def show(
     """
     from knotopt.cable.alexander import alexander_polynomial
     from knotopt.cable.cable import Cable
-    from knotopt.catalogue.lookup import find_knot
     from knotopt.cli.drawing import draw_text
     from knotopt.diagram.simplify import simplify
+    from knotopt.reading.knot import read_knot
 
-    named = find_knot(knot)
+    named = read_knot(knot)
     cable = Cable(named.diagram, cut)
     # Of a diagram with many crossings, the polynomial is computed on a simpler one of the knot.
     simplest = Cable(simplify(named.diagram), "L+")

@@ -127,11 +127,11 @@ def solve(
     """
     from formulations.export import FORMATS
     from knotopt.cable.cut import crossing_free_cuts
-    from knotopt.catalogue.lookup import find_knot
+    from knotopt.reading.knot import read_knot
     from knotopt.supports.minimal import all_minimal
     from knotopt.supports.search import supports_by_cut
 
-    named = find_knot(knot)
+    named = read_knot(knot)
     asked = Requirements(
         formulation,
         r,

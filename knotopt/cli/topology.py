@@ -11,7 +11,7 @@ from knotopt.cli.printing import print_facts, print_json, print_table, print_wri
 
 if TYPE_CHECKING:
     from knotopt.flight.leader_plan import LeaderFaces
-    from knotopt.topology.goals import Goal
+    from knotopt.reading.goal import Goal
     from knotopt.topology.plan import Plan, PlanGraph
 
 
@@ -65,7 +65,7 @@ def topology(
     Exit status 1 if there is none. Example: knotopt topology 3_1 --plot plans.png
     """
     from knotopt.flight.leader_plan import laid_plan, leader_faces
-    from knotopt.topology.goals import GoalSet, read_goal
+    from knotopt.reading.goal import GoalSet, read_goal
     from knotopt.topology.legal import R2Rule
     from knotopt.topology.plan import plan_graph
 
