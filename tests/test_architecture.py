@@ -27,10 +27,10 @@ ALLOWED: Mapping[str, str] = {
     "document": "errors arrays",
     # Knots, cables, ropes.
     "diagram": "errors arrays",
-    "planar": "errors arrays",
-    "cable": "errors arrays diagram",
+    "planar": "errors arrays diagram",
+    "cable": "errors arrays diagram planar",
     "catalogue": "errors files diagram",
-    "topology": "errors arrays cable",
+    "topology": "errors arrays planar cable",
     "reading": "errors diagram planar cable catalogue topology",
     # The judges.
     "verify": "errors arrays topology",
