@@ -31,7 +31,7 @@ ALLOWED: Mapping[str, str] = {
     "cable": "errors arrays diagram planar",
     "catalogue": "errors files diagram",
     "topology": "errors arrays planar cable",
-    "reading": "errors diagram planar cable catalogue topology",
+    "reading": "errors arrays diagram planar cable catalogue topology",
     # The judges.
     "verify": "errors arrays topology",
     # The makers, each with what its results are judged by.

@@ -20,7 +20,8 @@ import numpy as np
 
 from knotopt.arrays import FloatArray, IntArray
 from knotopt.errors import DiagramError
-from knotopt.planar.planar_diagram import Crossing, PlanarDiagram
+from knotopt.planar.gauss import from_visits
+from knotopt.planar.planar_diagram import PlanarDiagram
 from knotopt.planar.polygon import (
     Corners,
     is_straight,
@@ -237,15 +238,7 @@ def _diagram(corners: Corners, direction: Direction, pairs: Pairs) -> PlanarDiag
     for (i, share, *_), (j, other, *_) in pairwise(visits):
         if (i, share) == (j, other):
             raise _NoViewError(_MEETS, i, j)
-    edges = [[0, 0] for _ in signs]  # that come in below and above
-    for edge, (_, _, crossing, above) in enumerate(visits):
-        edges[crossing][above] = edge
-    code: list[Crossing] = []
-    for (under, over), sign in zip(edges, signs, strict=True):
-        after_under, after_over = (under + 1) % len(visits), (over + 1) % len(visits)
-        right, left_edge = (after_over, over) if sign > 0 else (over, after_over)
-        code.append((under, right, after_under, left_edge))
-    return PlanarDiagram(tuple(code))
+    return from_visits([visit[2] for visit in visits], [visit[3] for visit in visits], signs)
 
 
 class _Plan:

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from knotopt.reading import marks, matrix, names
+from knotopt.reading import curve, marks, matrix, names
 from knotopt.reading.content import Content
 from knotopt.reading.record import Asked, Reading
 
@@ -52,4 +52,5 @@ FORMS: tuple[Form, ...] = (
         ("grid_notation",),
         only_named=True,
     ),
+    Form("curve", "curve in space", curve.read, ("points", "curve", "coordinates")),
 )
