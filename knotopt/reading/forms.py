@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from knotopt.reading import curve, marks, matrix, names
+from knotopt.reading import arc, curve, marks, matrix, names, xo
 from knotopt.reading.content import Content
 from knotopt.reading.record import Asked, Reading
 
@@ -52,5 +52,7 @@ FORMS: tuple[Form, ...] = (
         ("grid_notation",),
         only_named=True,
     ),
+    Form("xo", "grid of X and O", xo.read),
+    Form("arc", "arc presentation", arc.read, ("arc_notation", "arc_presentation", "arcs", "arc")),
     Form("curve", "curve in space", curve.read, ("points", "curve", "coordinates")),
 )

@@ -9,10 +9,11 @@ from knotopt.diagram.grid import GridDiagram
 from knotopt.diagram.simplify import simplify
 from knotopt.errors import FileFormatError, KnotoptError
 from knotopt.planar.planar_diagram import PlanarDiagram
-from knotopt.reading import names
+from knotopt.reading import xo
 from knotopt.reading.content import Content
 from knotopt.reading.forms import FORMS, Form
 from knotopt.reading.lists import Lists
+from knotopt.reading.miss import miss
 from knotopt.reading.over import COLUMNS, ROWS, mirrored
 from knotopt.reading.record import Asked, NamedDiagram, Reading
 from knotopt.reading.source import Source, read_source
@@ -101,9 +102,10 @@ def _read(content: Content, asked: Asked, only: Form | None) -> tuple[Reading, s
                 return found, form.title
     if first is not None:
         raise first
-    if only is not None:
-        raise FileFormatError(f"this is no {only.title}")
-    raise names.unknown(content.text)
+    if len(forms) == 1:
+        where = f' under the key "{content.key}"' if content.key else ""
+        raise FileFormatError(f"expected {forms[0].title}{where}")
+    raise miss(content)
 
 
 def _under_key(content: Content) -> tuple[Content, Form | None]:
@@ -113,6 +115,8 @@ def _under_key(content: Content) -> tuple[Content, Form | None]:
         for name in form.keys:
             if name in by_name:
                 return content.inside(name, content.value[by_name[name]]), form
+    if any(by_name.keys() >= {*pair} for pair in xo.PAIRS_OF_KEYS):
+        return content, _form_named("xo")
     found = ", ".join(map(repr, content.value)) or "none"
     raise FileFormatError(f'expected a key such as "grid", "matrix" or "pd_code", found {found}')
 
