@@ -115,7 +115,7 @@ def _rows(text: str) -> Rows | None:
     ]
     while lines and not lines[0][1]:
         lines.pop(0)
-    lines = _without_count(lines)
+    lines = _without_count(_of_obj(lines))
     blocks = _blocks(lines)
     lines = [line for block in blocks for line in block]
     if len(lines) < 4:
@@ -156,6 +156,17 @@ def _words(line: str) -> list[str]:
         line = line.replace(",", ".")
     # An empty cell in front, as before an index, is no cell.
     return [word.strip("\"'") for word in _SPLIT.split(line.strip(" \t,;|")) if word]
+
+
+def _of_obj(lines: list[Line]) -> list[Line]:
+    """The vertices of a Wavefront OBJ file, around its line; any other lines as they are."""
+    vertices = [line for line in lines if line[1][:1] == ["v"]]
+    around = next((words[1:] for _, words in lines if words[:1] == ["l"]), None)
+    if not vertices or around is None:
+        return lines
+    if not all(word.isdecimal() and 0 < int(word[:18]) <= len(vertices) for word in around):
+        raise CurveError("a line of the OBJ file names a vertex that it does not have")
+    return [vertices[int(word) - 1] for word in around]
 
 
 def _without_count(lines: list[Line]) -> list[Line]:
