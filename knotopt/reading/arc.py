@@ -41,11 +41,12 @@ def read(content: Content, asked: Asked) -> Reading | None:
         pairs = [[column + 1 for column in pair] for pair in pairs]
         notes.append("columns are counted from 0")
     diagram, over = with_over(_grid(pairs), asked, COLUMNS)
-    return Reading(diagram, (over, *notes))
+    ambiguous = asked.over is None and not _is_named(content)
+    return Reading(diagram, (over, *notes), ambiguous=ambiguous)
 
 
 def _pairs(content: Content) -> list[list[int]] | None:
-    named = content.key.startswith("arc") or "ArcPresentation" in content.heads
+    named = _is_named(content)
     rows = content.rows
     if rows is None:
         numbers = content.numbers
@@ -60,6 +61,10 @@ def _pairs(content: Content) -> list[list[int]] | None:
         if len(row) != 2 or not all(isinstance(column, int) for column in row):
             raise GridError(f"pair {number} is {row}, expected two columns")
     return rows
+
+
+def _is_named(content: Content) -> bool:
+    return content.key.startswith("arc") or "ArcPresentation" in content.heads
 
 
 def _is_in_a_row(text: str, numbers: list[int]) -> bool:

@@ -103,8 +103,8 @@ def _read(content: Content, asked: Asked, only: Form | None) -> tuple[Reading, s
     if first is not None:
         raise first
     if len(forms) == 1:
-        where = f' under the key "{content.key}"' if content.key else ""
-        raise FileFormatError(f"expected {forms[0].title}{where}")
+        where = f'under the key "{content.key}" there' if content.key else "this"
+        raise FileFormatError(f"{where} is no {forms[0].title}")
     raise miss(content)
 
 
@@ -128,13 +128,21 @@ def _finished(found: Reading, title: str, source: Source, *, mirror: bool) -> Na
         from knotopt.planar.grid_drawing import draw_grid  # type: ignore[import-not-found]
 
         diagram = simplify(draw_grid(diagram))
+    name, prime_knot = found.name or source.name or title, found.prime_knot
     if mirror:
-        diagram = mirrored(diagram)
+        diagram, prime_knot = mirrored(diagram), None
         notes.append("mirror image, as asked")
-    name = found.name or source.name or title
-    words = found.source or source.words
-    prime_knot = None if mirror else found.prime_knot
-    return NamedDiagram(name, diagram, words, prime_knot, title, tuple(notes))
+        if found.name:
+            name = name[1:] if name.startswith("m") else f"m{name}"
+    return NamedDiagram(
+        name,
+        diagram,
+        found.source or source.words,
+        prime_knot,
+        title,
+        tuple(notes),
+        found.ambiguous and not mirror,
+    )
 
 
 def _checked_over(over: str | None) -> str | None:

@@ -43,7 +43,7 @@ def read(content: Content, asked: Asked) -> Reading | None:
         return None
     diagram, note = found
     diagram, over = with_over(diagram, asked, COLUMNS)
-    return Reading(diagram, (over, note))
+    return Reading(diagram, (over, note), ambiguous=asked.over is None)
 
 
 def _by_column(content: Content) -> tuple[GridDiagram, str] | None:
@@ -138,7 +138,11 @@ def _lines(content: Content) -> list[list[str]] | None:
         return None
     lines = [[_mark(cell) for cell in row] for row in rows]
     marks = sum(mark in {"X", "O"} for line in lines for mark in line)
+    words = any(isinstance(cell, str) and cell.strip().isalpha() for row in rows for cell in row)
+    numbers = any(isinstance(cell, int) and cell > 0 for row in rows for cell in row)
     if any(mark is None for line in lines for mark in line) or marks < len(lines):
+        return None
+    if words and numbers:
         return None
     return [[mark or "" for mark in line] for line in lines]
 

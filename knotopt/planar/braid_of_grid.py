@@ -13,7 +13,7 @@ from knotopt.diagram.grid import GridDiagram
 Word = tuple[int, ...]
 
 
-def grid_braid(grid: GridDiagram) -> tuple[Word, int]:
+def braid_of_grid(grid: GridDiagram) -> tuple[Word, int]:
     """A braid of which a grid diagram's knot is the closure, and its number of strands.
 
     Columns that run down are led round the other way: up from their lower end's row to the top and
@@ -34,7 +34,7 @@ def grid_braid(grid: GridDiagram) -> tuple[Word, int]:
     Examples
     --------
     >>> from knotopt.diagram.families import torus_knot
-    >>> grid_braid(torus_knot(2, 3)), grid_braid(torus_knot(3, -4))
+    >>> braid_of_grid(torus_knot(2, 3)), braid_of_grid(torus_knot(3, -4))
     (((1, 1, 1), 2), ((-1, -2, -1, -2, -1, -2, -1, -2), 3))
     """
     columns_of = [
