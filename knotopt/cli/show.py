@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from knotopt.cli.formats import FormOption, print_form
 from knotopt.cli.options import JsonOption, KnotArgument, PlotOption
 from knotopt.cli.printing import print_facts, print_json, print_written
 from knotopt.cli.reading import read, reading_in_words
@@ -27,6 +28,7 @@ def show(
             help="Where the knot is opened: L+ L- R+ R- B+ B- T+ T-, or col3+, row5-.",
         ),
     ] = "L+",
+    form: FormOption = None,
     plot: PlotOption = None,
     as_json: JsonOption = False,
 ) -> None:
@@ -34,6 +36,9 @@ def show(
 
     Example: knotopt show 8_19 --plot 8_19.png
     """
+    if form is not None:
+        print_form(knot, form, {"--plot": plot, "--json": as_json})
+        return
     from knotopt.cable.alexander import alexander_polynomial
     from knotopt.cable.cable import Cable
     from knotopt.cli.drawing import draw_text
