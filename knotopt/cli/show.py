@@ -130,7 +130,7 @@ def _facts(content: dict[str, Any], fewest: int) -> list[tuple[str, Any]]:
     notes = tuple(content["notes"])
     return [
         ("knot", f"{content['knot']} ({content['source']})"),
-        *([("read as", reading_in_words(content["form"], notes))] if notes else []),
+        *([] if content["form"] == "name" else [("read as", reading_in_words(content["form"], notes))]),
         ("grid size", f"{content['grid_size']} (smallest found: {content['smallest_grid_found']})"),
         ("cut", f"{content['cut']} of {' '.join(content['crossing_free_cuts'])}"),
         ("turning points", content["turning_points"]),

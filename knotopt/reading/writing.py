@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from knotopt.diagram.grid import GridDiagram
 from knotopt.diagram.lifted import lifted
 from knotopt.errors import DiagramError
+from knotopt.planar.braid_of_grid import braid_of_grid
 from knotopt.planar.dt import dt_code
 from knotopt.planar.from_grid import planar_diagram
 from knotopt.planar.gauss import gauss_letters
-from knotopt.planar.grid_braid import grid_braid
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ def _gauss(diagram: GridDiagram) -> str:
 
 
 def _braid(diagram: GridDiagram) -> str:
-    word, strands = grid_braid(diagram)
+    word, strands = braid_of_grid(diagram)
     return f"BR[{strands}, {{{', '.join(map(str, word))}}}]\n"
 
 
