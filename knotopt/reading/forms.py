@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from knotopt.reading import arc, braid, dt, gauss, marks, matrix, names, pd, xo
+from knotopt.reading import arc, braid, curve, dt, gauss, marks, matrix, names, pd, xo
 from knotopt.reading.content import Content
 from knotopt.reading.record import Asked, Reading
 
@@ -63,4 +63,5 @@ FORMS: tuple[Form, ...] = (
     Form("xo", "grid of X and O", xo.read),
     Form("arc", "arc presentation", arc.read, ("arc_notation", "arc_presentation", "arcs", "arc")),
     Form("braid", "braid word", braid.read, ("braid", "br", "braid_word", "braid_notation")),
+    Form("curve", "curve in space", curve.read, ("points", "curve", "coordinates")),
 )

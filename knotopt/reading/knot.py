@@ -7,15 +7,15 @@ from pathlib import Path
 from typing import Any
 
 from knotopt.diagram.grid import GridDiagram
-from knotopt.diagram.simplify import simplify
 from knotopt.errors import FileFormatError, KnotoptError
 from knotopt.planar.planar_diagram import PlanarDiagram
+from knotopt.planar.small_grid import small_grid
 from knotopt.reading import xo
 from knotopt.reading.content import Content
 from knotopt.reading.forms import FORMS, Form
 from knotopt.reading.lists import Lists
 from knotopt.reading.miss import miss
-from knotopt.reading.over import COLUMNS, ROWS, mirrored
+from knotopt.reading.over import COLUMNS, ROWS
 from knotopt.reading.record import Asked, NamedDiagram, Reading
 from knotopt.reading.source import Source, read_source
 
@@ -130,9 +130,7 @@ def _finished(found: Reading, title: str, source: Source, *, mirror: bool) -> Na
     """The record of what was read: drawn on a grid if it is not one, mirrored if asked."""
     diagram = found.diagram
     if isinstance(diagram, PlanarDiagram):
-        from knotopt.planar.grid_drawing import draw_grid
-
-        diagram = simplify(draw_grid(diagram))
+        diagram = small_grid(diagram)
     named = NamedDiagram(
         found.name or source.name or title,
         diagram,
@@ -153,7 +151,7 @@ def _mirrored(named: NamedDiagram, *, is_name: bool = True) -> NamedDiagram:
     return replace(
         named,
         name=name,
-        diagram=mirrored(named.diagram),
+        diagram=named.diagram.mirrored,
         prime_knot=None,
         notes=(*named.notes, "mirror image, as asked"),
         ambiguous=False,

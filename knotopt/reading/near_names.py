@@ -22,7 +22,7 @@ def unknown(text: str) -> UnknownKnotError:
     >>> print(unknown("11a_400"))
     no knot is named '11a_400'; KnotInfo has 11a_1 to 11a_367
     >>> print(unknown("trefol"))
-    no knot is named 'trefol'; nearest: trefoil
+    no knot is named 'trefol'; nearest: trefoil, threefoil, left trefoil
     """
     shown = text if len(text) <= _SHOWN else f"{text[: _SHOWN - 3]}..."
     name = numbered(re.sub(r"^\s*(?:m|-|mirror)\s*(?=k?\d)", "", text[:_SHOWN].casefold()))

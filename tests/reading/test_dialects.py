@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 
 from knotopt.diagram.grid import GridDiagram
 from knotopt.reading.knot import read_knot
-from knotopt.reading.over import mirrored
 from tests.helpers import dialects
 from tests.helpers.strategies import diagrams
 
@@ -53,4 +52,4 @@ def test_values_of_python_are_read(diagram: GridDiagram) -> None:
     assert read_knot(diagram.marks).diagram.marks == diagram.marks
     assert read_knot({"X": diagram.minus, "O": diagram.plus}).diagram == diagram
     again = read_knot(read_knot(diagram), mirror=True)
-    assert again.diagram == mirrored(diagram)
+    assert again.diagram == diagram.mirrored
