@@ -27,12 +27,12 @@ ALLOWED: Mapping[str, str] = {
     "document": "errors arrays",
     # Knots, cables, ropes.
     "diagram": "errors arrays",
-    "planar": "errors",
-    "cable": "errors arrays diagram",
+    "planar": "errors arrays diagram",
+    "cable": "errors arrays diagram planar",
     "search": "errors diagram",
     "catalogue": "errors files diagram",
-    "topology": "errors arrays cable",
-    "reading": "errors diagram planar cable catalogue topology",
+    "topology": "errors arrays planar cable",
+    "reading": "errors arrays diagram planar cable catalogue topology",
     # The judges.
     "verify": "errors arrays topology",
     # The makers, each with what its results are judged by.

@@ -14,6 +14,7 @@ from knotopt.cli.fly_printing import show_mission
 from knotopt.cli.formulations import WithOption, with_loops
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import status_line, track
+from knotopt.cli.reading import read
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.request import FLOWN, SCHEDULES, FlightRequest
 from knotopt.mission.disturbed import DisturbedFlights
@@ -127,7 +128,6 @@ def fly(
 
     Example: knotopt fly 3 --sim --out trefoil
     """
-    from knotopt.reading.knot import read_knot
     from knotopt.supports.selection import equally_small
 
     options.check_choice("--schedule", schedule, SCHEDULES)
@@ -151,7 +151,7 @@ def fly(
     disturbances = DisturbedFlights(**disturbed).disturbances()
     _check_surroundings(out, sim=sim)
 
-    named = read_knot(knot)
+    named = read(knot)
     sets = equally_small(named.diagram, supports, cut, requirements)
     request = FlightRequest(named.name, Path(supports).name, world, limits, schedule)
     mission = _mission(sets, request, disturbances, tighten, sim=sim)

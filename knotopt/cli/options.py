@@ -73,14 +73,16 @@ KnotArgument = Annotated[
     str,
     typer.Argument(
         metavar="KNOT",
-        help="A name (8_19), a row of Table I (3, '7 Var1'), 'T(2,7)', or a .json or .csv file.",
+        help="A name (8_19, 'T(2,7)', a row of Table I: 3, '7 Var1'), a code (PD, DT, Gauss, "
+        "braid word), a grid, or a file with one; - for standard input.",
     ),
 ]
 KnotsArgument = Annotated[
     list[str] | None,
     typer.Argument(
         metavar="KNOT",
-        help="Names (8_19), rows of Table I (3, '7 Var1'), 'T(2,7)', or .json or .csv files.",
+        help="Names (8_19, 'T(2,7)', rows of Table I: 3, '7 Var1'), codes (PD, DT, Gauss, braid "
+        "words), grids, or files with one; - for standard input.",
     ),
 ]
 CatalogueOption = Annotated[
@@ -140,11 +142,11 @@ def check_suffix(path: Path | None, what: str, suffixes: Collection[str]) -> Non
 def read_knots(names: list[str] | None, *, catalogue: bool) -> list[NamedDiagram]:
     """The knots named, or all of the catalogue."""
     from knotopt.catalogue.knots import shipped_knots
-    from knotopt.reading.knot import read_knot
+    from knotopt.cli.reading import read
 
     if catalogue == bool(names):
         refuse("KNOT...", "give knots, or --catalogue")
-    return [read_knot(name) for name in (shipped_knots() if catalogue else names or ())]
+    return [read(name) for name in (shipped_knots() if catalogue else names or ())]
 
 
 def solver_limits(

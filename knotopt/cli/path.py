@@ -11,6 +11,7 @@ import typer
 from knotopt.cli import options
 from knotopt.cli.formulations import FormulationOption, WithOption, with_loops
 from knotopt.cli.printing import print_facts, print_json, print_note, print_table, print_written
+from knotopt.cli.reading import read
 from knotopt.path.requirements import PathRequirements
 from knotopt.path.world import World
 from knotopt.supports.requirements import Requirements
@@ -93,7 +94,6 @@ def path(
     """
     from knotopt.path.optimise import optimise_path
     from knotopt.path.relaxation import relaxed_path
-    from knotopt.reading.knot import read_knot
     from knotopt.supports.selection import choose_supports
 
     options.check_choice("--method", method, METHODS)
@@ -113,7 +113,7 @@ def path(
     )
     if world is not None:
         asked = world.requirements(asked)
-    named = read_knot(knot)
+    named = read(knot)
     of_smallest = Requirements(formulation, r, with_loops=with_loops(with_))
     chosen = choose_supports(named.diagram, supports, cut, of_smallest)
     results: list[PathResult] = []

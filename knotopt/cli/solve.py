@@ -13,6 +13,7 @@ from knotopt.cli import options
 from knotopt.cli.formulations import FormulationOption, ThreadingOption, WithOption, with_loops
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import logged_bar, track
+from knotopt.cli.reading import read
 from knotopt.cli.solve_diagrams import (
     BudgetOption,
     DiagramsOption,
@@ -134,11 +135,10 @@ def solve(
     """
     from formulations.export import FORMATS
     from knotopt.cable.cut import crossing_free_cuts
-    from knotopt.reading.knot import read_knot
     from knotopt.supports.minimal import all_minimal
     from knotopt.supports.search import supports_by_cut
 
-    named = read_knot(knot)
+    named = read(knot)
     asked = Requirements(
         formulation,
         r,

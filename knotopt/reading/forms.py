@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from knotopt.reading import marks, matrix, names
+from knotopt.reading import arc, braid, curve, dt, gauss, marks, matrix, names, pd, xo
 from knotopt.reading.content import Content
 from knotopt.reading.record import Asked, Reading
 
@@ -52,4 +52,16 @@ FORMS: tuple[Form, ...] = (
         ("grid_notation",),
         only_named=True,
     ),
+    Form("pd", "PD code", pd.read, ("pd", "pd_code", "pd_notation")),
+    Form("dt", "DT code", dt.read, ("dt", "dt_code", "dt_notation")),
+    Form(
+        "gauss",
+        "Gauss code",
+        gauss.read,
+        ("gauss", "gauss_code", "gauss_notation", "oriented_gauss_code"),
+    ),
+    Form("xo", "grid of X and O", xo.read),
+    Form("arc", "arc presentation", arc.read, ("arc_notation", "arc_presentation", "arcs", "arc")),
+    Form("braid", "braid word", braid.read, ("braid", "br", "braid_word", "braid_notation")),
+    Form("curve", "curve in space", curve.read, ("points", "curve", "coordinates")),
 )

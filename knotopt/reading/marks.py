@@ -30,7 +30,9 @@ def read(content: Content, asked: Asked) -> Reading | None:
     diagram, over = with_over(GridDiagram.from_marks(marks), asked, COLUMNS)
     if asked.over is None and not content.key and (name := _knotinfo_name(marks)):
         over += f"; KnotInfo's marks of {name} are these, and there rows do: --over rows"
-    return Reading(_oriented(diagram), (over, *notes))
+    own = content.key == "grid" or content.header == ("column", "row")
+    ambiguous = asked.over is None and not own
+    return Reading(_oriented(diagram), (over, *notes), ambiguous=ambiguous)
 
 
 def read_grid_notation(content: Content, asked: Asked) -> Reading | None:

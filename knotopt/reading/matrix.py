@@ -20,7 +20,8 @@ def read(content: Content, asked: Asked) -> Reading | None:
     if rows is None or not (content.key == "matrix" or _is_matrix(rows)):
         return None
     diagram, over = with_over(GridDiagram.from_matrix(rows), asked, COLUMNS)
-    return Reading(diagram, (over, "the first line is the top row"))
+    ambiguous = asked.over is None and not content.key
+    return Reading(diagram, (over, "the first line is the top row"), ambiguous=ambiguous)
 
 
 def _is_matrix(rows: list[list[object]]) -> bool:

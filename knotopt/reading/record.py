@@ -18,9 +18,12 @@ class Asked:
     ----------
     over : str or None
         "columns" or "rows", which of a grid's segments pass over; None for the form's own way.
+    form : str or None
+        The one form to read the content in, by its name; None if the content decides.
     """
 
     over: str | None = None
+    form: str | None = None
 
 
 @dataclass(frozen=True)
@@ -39,6 +42,8 @@ class Reading:
         Where the diagram comes from, in words, where that is not the source itself ("KnotInfo").
     prime_knot : PrimeKnot or None
         The catalogue's entry, if the knot is one of it.
+    ambiguous : bool
+        Whether the content may as well mean the mirror image, and one of the two was chosen.
     """
 
     diagram: GridDiagram | PlanarDiagram
@@ -46,6 +51,7 @@ class Reading:
     name: str | None = None
     source: str | None = None
     prime_knot: PrimeKnot | None = None
+    ambiguous: bool = False
 
 
 @dataclass(frozen=True)
@@ -65,6 +71,8 @@ class NamedDiagram:
         What was understood: "name", "PD code", "matrix".
     notes : tuple of str
         Readings chosen: who passes over, from where rows are counted, "up to mirror image".
+    ambiguous : bool
+        Whether what was read may as well mean the mirror image, and one of the two was chosen.
     """
 
     name: str
@@ -73,3 +81,4 @@ class NamedDiagram:
     prime_knot: PrimeKnot | None = None
     form: str = "grid"
     notes: tuple[str, ...] = ()
+    ambiguous: bool = False

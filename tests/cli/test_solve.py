@@ -46,13 +46,15 @@ def test_solve_over_cuts_sets_and_diagrams(cli: Cli) -> None:
     assert "2 smallest sets, and maybe more (--count 2" in out
 
 
-def test_solve_over_diagrams(cli: Cli, tmp_path: Path) -> None:
+def test_solve_over_diagrams(cli: Cli) -> None:
     command = ("solve", "7 Var1", "--diagrams", "--budget", "60_000", "--seed", "1")
     content = cli.json(*command)
     assert content["robots_after"] < 12 and content["proven"] and content["checked_open"]
     assert content["diagrams_tried"] >= 60_000 and content["diagrams_solved"] == 3
     first = content["front"][0]
-    assert (first["robots"], first["crossings"]) == (3, 7) and len(first["grid"]) == 2 * first["size"]
+    assert (first["robots"], first["crossings"]) == (3, 7) and len(first["grid"]) == 2 * first[
+        "size"
+    ]
     status, out, err = cli("solve", "5", "--diagrams", "--formulation", "loops", "--budget", "1")
     assert (status, err) == (0, "") and "fewest robots that lay a diagram" in out
     assert "best of 1 solved, from" in out and "cut L+: 3 robots instead of" in out

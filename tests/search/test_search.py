@@ -41,7 +41,7 @@ def test_grids_found_are_of_the_same_knot(name: str) -> None:
 def test_what_is_kept_of_a_run(size: int, seed: int) -> None:
     diagram = random_knot(size, seed)
     made = run(diagram, 0, seed, compile=False)
-    assert made.looked > 0 and counted(diagram) in made.found or len(made.found) > 0
+    assert (made.looked > 0 and counted(diagram) in made.found) or len(made.found) > 0
     for found in made.found:
         assert found == counted(found.diagram) and found.size <= size + single.ROOM
     given_grid = counted(diagram)
