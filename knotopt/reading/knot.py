@@ -125,7 +125,7 @@ def _finished(found: Reading, title: str, source: Source, *, mirror: bool) -> Na
     """The record of what was read: drawn on a grid if it is not one, mirrored if asked."""
     diagram, notes = found.diagram, list(found.notes)
     if isinstance(diagram, PlanarDiagram):
-        from knotopt.planar.grid_drawing import draw_grid  # type: ignore[import-not-found]
+        from knotopt.planar.grid_drawing import draw_grid
 
         diagram = simplify(draw_grid(diagram))
     name, prime_knot = found.name or source.name or title, found.prime_knot
