@@ -15,6 +15,7 @@ from knotopt.reading.codes import (
     is_something_else,
     looks_like_dt,
     looks_like_gauss,
+    numbers_in,
 )
 from knotopt.reading.content import Content
 from knotopt.reading.record import Asked, Reading
@@ -69,9 +70,10 @@ def _with_strands(value: Any) -> tuple[list[int], int] | None:
     if not (isinstance(value, list) and len(value) == 2):
         return None
     for strands, word in (value, value[::-1]):
-        if isinstance(strands, int) and not isinstance(strands, bool) and isinstance(word, list):
-            numbers = Content("").inside("braid", word).numbers if word else []
-            return None if numbers is None else (numbers, strands)
+        count = numbers_in([strands])
+        letters = numbers_in(word) if isinstance(word, list) else None
+        if count is not None and letters is not None:
+            return letters, count[0]
     return None
 
 

@@ -22,6 +22,7 @@ from knotopt.errors import DiagramError
 from knotopt.planar.embedding import parts
 from knotopt.planar.planar_diagram import PlanarDiagram
 from knotopt.reading.content import Content
+from knotopt.reading.lists import Lists
 from knotopt.reading.record import Asked
 
 _PLAIN = ("array", "list", "tuple", "vector", "matrix")
@@ -70,6 +71,11 @@ def flat_numbers(content: Content) -> list[int] | None:
     if content.value == []:
         return []
     return content.numbers if isinstance(content.value, list) else None
+
+
+def numbers_in(value: Any) -> list[int] | None:
+    """A list of whole numbers, however written, as int; None if it is anything else."""
+    return value if value == [] else Content("", Lists(value)).numbers
 
 
 def looks_like_dt(numbers: Sequence[int]) -> bool:

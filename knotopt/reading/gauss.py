@@ -14,6 +14,7 @@ from knotopt.reading.codes import (
     is_named,
     is_something_else,
     looks_like_gauss,
+    numbers_in,
     up_to_mirror,
     whole,
 )
@@ -76,7 +77,9 @@ def _oriented(value: Any) -> tuple[list[int], list[int]] | None:
         raise DiagramError(
             f"this Gauss code is a link of {len(components)} components, a knot has 1"
         )
-    code = [whole(entry, f"visit {k}") for k, entry in enumerate(components[0], 1)]
+    code = numbers_in(components[0])
+    if code is None:
+        code = [whole(entry, f"visit {k}") for k, entry in enumerate(components[0], 1)]
     return code, [1 if sign in (1, "+") else -1 for sign in signs]
 
 
