@@ -1,4 +1,5 @@
 from .api import plan as plan
+from .api import read as read
 from .api import solve as solve
 from .cable.alexander import alexander_polynomial as alexander_polynomial
 from .cable.alexander import determinant as determinant
@@ -12,12 +13,10 @@ from .cable.notation import pd_code as pd_code
 from .cable.staircase import find_staircases as find_staircases
 from .catalogue.knotinfo import knotinfo_knots as knotinfo_knots
 from .catalogue.knots import shipped_knots as shipped_knots
-from .catalogue.lookup import find_knot as find_knot
 from .catalogue.table1_grids import table1_grids as table1_grids
 from .diagram.families import random_knot as random_knot
 from .diagram.families import torus_knot as torus_knot
 from .diagram.grid import GridDiagram as GridDiagram
-from .diagram.reading import read_grid as read_grid
 from .diagram.simplify import simplify as simplify
 from .errors import KnotoptError as KnotoptError
 from .flight.leader_plan import flown_plan as flown_plan

@@ -12,6 +12,7 @@ from knotopt.atlas.schema import Settings
 from knotopt.cli.options import CatalogueOption, OpennessOption, given, refuse, unless_given
 from knotopt.cli.printing import print_facts, print_written
 from knotopt.cli.progress import progress_bar
+from knotopt.cli.reading import read
 from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
@@ -129,13 +130,12 @@ def _list(
     knots: list[str] | None, grids: Path | None, *, catalogue: bool, knotinfo: bool
 ) -> tuple[KnotRow, ...]:
     from knotopt.atlas.knot_list import catalogue_rows, folder_rows, knot_rows
-    from knotopt.catalogue.lookup import find_knot
 
     if sum(map(bool, (knots, grids, catalogue, knotinfo))) > 1:
         refuse("KNOT...", "give one of: knots, --catalogue, --knotinfo, --grids")
     if knots:
-        return knot_rows(map(find_knot, knots))
-    return folder_rows(grids) if grids else catalogue_rows(knotinfo=knotinfo)
+        return knot_rows(map(read, knots))
+    return folder_rows(grids, read) if grids else catalogue_rows(knotinfo=knotinfo)
 
 
 def _solvers(text: str) -> tuple[str, ...]:

@@ -13,8 +13,8 @@ from knotopt.cli.printing import print_json, print_tables, print_written
 from knotopt.cli.progress import track
 
 if TYPE_CHECKING:
-    from knotopt.catalogue.lookup import NamedDiagram
     from knotopt.document.columns import Row
+    from knotopt.reading.record import NamedDiagram
 
 
 def compare(
@@ -42,7 +42,7 @@ def compare(
     from knotopt.files import resumable_lines
     from knotopt.tables import comparison
 
-    found = options.find_knots(knots, catalogue=catalogue)
+    found = options.read_knots(knots, catalogue=catalogue)
     write = None if out is None else writer_for(out)
     limits = options.solver_limits(time_limit)
 

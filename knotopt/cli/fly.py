@@ -13,6 +13,7 @@ from knotopt.cli import options
 from knotopt.cli.fly_printing import show_mission
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import status_line, track
+from knotopt.cli.reading import read
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.request import FLOWN, SCHEDULES, FlightRequest
 from knotopt.mission.disturbed import DisturbedFlights
@@ -125,7 +126,6 @@ def fly(
 
     Example: knotopt fly 3 --sim --out trefoil
     """
-    from knotopt.catalogue.lookup import find_knot
     from knotopt.supports.selection import equally_small
 
     options.check_choice("--schedule", schedule, SCHEDULES)
@@ -146,7 +146,7 @@ def fly(
     disturbances = DisturbedFlights(**disturbed).disturbances()
     _check_surroundings(out, sim=sim)
 
-    named = find_knot(knot)
+    named = read(knot)
     sets = equally_small(named.diagram, supports, cut, requirements)
     request = FlightRequest(named.name, Path(supports).name, world, limits, schedule)
     mission = _mission(sets, request, disturbances, tighten, sim=sim)

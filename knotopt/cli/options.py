@@ -19,7 +19,7 @@ from knotopt.errors import OutputError, SolverError
 from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
-    from knotopt.catalogue.lookup import NamedDiagram
+    from knotopt.reading.record import NamedDiagram
 
 
 class PictureFormat(StrEnum):
@@ -73,14 +73,16 @@ KnotArgument = Annotated[
     str,
     typer.Argument(
         metavar="KNOT",
-        help="A name (8_19), a row of Table I (3, '7 Var1'), 'T(2,7)', or a .json or .csv file.",
+        help="A name (8_19, 'T(2,7)', a row of Table I: 3, '7 Var1'), a code (PD, DT, Gauss, "
+        "braid word), a grid, or a file with one; - for standard input.",
     ),
 ]
 KnotsArgument = Annotated[
     list[str] | None,
     typer.Argument(
         metavar="KNOT",
-        help="Names (8_19), rows of Table I (3, '7 Var1'), 'T(2,7)', or .json or .csv files.",
+        help="Names (8_19, 'T(2,7)', rows of Table I: 3, '7 Var1'), codes (PD, DT, Gauss, braid "
+        "words), grids, or files with one; - for standard input.",
     ),
 ]
 CatalogueOption = Annotated[
@@ -137,14 +139,14 @@ def check_suffix(path: Path | None, what: str, suffixes: Collection[str]) -> Non
         raise OutputError(f"{path}: {what} written as {', '.join(suffixes)}")
 
 
-def find_knots(names: list[str] | None, *, catalogue: bool) -> list[NamedDiagram]:
+def read_knots(names: list[str] | None, *, catalogue: bool) -> list[NamedDiagram]:
     """The knots named, or all of the catalogue."""
     from knotopt.catalogue.knots import shipped_knots
-    from knotopt.catalogue.lookup import find_knot
+    from knotopt.cli.reading import read
 
     if catalogue == bool(names):
         refuse("KNOT...", "give knots, or --catalogue")
-    return [find_knot(name) for name in (shipped_knots() if catalogue else names or ())]
+    return [read(name) for name in (shipped_knots() if catalogue else names or ())]
 
 
 def solver_limits(

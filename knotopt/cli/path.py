@@ -11,6 +11,7 @@ import typer
 from knotopt.cli import options
 from knotopt.cli.formulations import FormulationOption
 from knotopt.cli.printing import print_facts, print_json, print_note, print_table, print_written
+from knotopt.cli.reading import read
 from knotopt.path.requirements import PathRequirements
 from knotopt.path.world import World
 from knotopt.supports.requirements import Requirements
@@ -90,7 +91,6 @@ def path(
 
     Example: knotopt path 9 --supports lcf --method both --plot path.png
     """
-    from knotopt.catalogue.lookup import find_knot
     from knotopt.path.optimise import optimise_path
     from knotopt.path.relaxation import relaxed_path
     from knotopt.supports.selection import choose_supports
@@ -109,7 +109,7 @@ def path(
     )
     if world is not None:
         asked = world.requirements(asked)
-    named = find_knot(knot)
+    named = read(knot)
     chosen = choose_supports(named.diagram, supports, cut, Requirements(formulation, r))
     results: list[PathResult] = []
     if method != "nlp":

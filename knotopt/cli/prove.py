@@ -51,7 +51,7 @@ def prove(
     from knotopt.supports.certificate import prove as prove_knot
     from knotopt.supports.registry import find_formulation
 
-    found = options.find_knots(knots, catalogue=catalogue)
+    found = options.read_knots(knots, catalogue=catalogue)
     asked = Requirements(formulation, r, threading)
     proofs = find_formulation(formulation).proofs
     if method not in (None, *proofs):

@@ -9,10 +9,11 @@ import typer
 
 from knotopt.cli.options import JsonOption, KnotArgument, PlotOption
 from knotopt.cli.printing import print_facts, print_json, print_written
+from knotopt.cli.reading import read, reading_in_words
 
 if TYPE_CHECKING:
     from knotopt.cable.cable import Cable
-    from knotopt.catalogue.lookup import NamedDiagram
+    from knotopt.reading.record import NamedDiagram
 
 MAX_CROSSINGS = 120  # of an Alexander polynomial computed here: about a second
 
@@ -35,11 +36,10 @@ def show(
     """
     from knotopt.cable.alexander import alexander_polynomial
     from knotopt.cable.cable import Cable
-    from knotopt.catalogue.lookup import find_knot
     from knotopt.cli.drawing import draw_text
     from knotopt.diagram.simplify import simplify
 
-    named = find_knot(knot)
+    named = read(knot, says=True)
     cable = Cable(named.diagram, cut)
     # Of a diagram with many crossings, the polynomial is computed on a simpler one of the knot.
     simplest = Cable(simplify(named.diagram), "L+")
@@ -70,6 +70,8 @@ def _json(
     return {
         "knot": named.name,
         "source": named.source,
+        "form": named.form,
+        "notes": list(named.notes),
         "grid_size": named.diagram.size,
         "smallest_grid_found": simplest.diagram.size,
         "cut": str(cable.cut),
@@ -120,8 +122,10 @@ def _facts(content: dict[str, Any], fewest: int) -> list[tuple[str, Any]]:
         + (" (twist)" if each["is_twist"] else "")
         for each in content["staircases"]
     ]
+    notes = tuple(content["notes"])
     return [
         ("knot", f"{content['knot']} ({content['source']})"),
+        *([("read as", reading_in_words(content["form"], notes))] if notes else []),
         ("grid size", f"{content['grid_size']} (smallest found: {content['smallest_grid_found']})"),
         ("cut", f"{content['cut']} of {' '.join(content['crossing_free_cuts'])}"),
         ("turning points", content["turning_points"]),

@@ -13,6 +13,7 @@ from knotopt.cli import options
 from knotopt.cli.formulations import FormulationOption, ThreadingOption
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import logged_bar, track
+from knotopt.cli.reading import read
 from knotopt.cli.solve_flown import (
     FlightOptions,
     MaxCutOption,
@@ -127,11 +128,10 @@ def solve(
     """
     from formulations.export import FORMATS
     from knotopt.cable.cut import crossing_free_cuts
-    from knotopt.catalogue.lookup import find_knot
     from knotopt.supports.minimal import all_minimal
     from knotopt.supports.search import supports_by_cut
 
-    named = find_knot(knot)
+    named = read(knot)
     asked = Requirements(
         formulation,
         r,

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from formulations.solution import Limits
-    from knotopt.catalogue.lookup import NamedDiagram
+    from knotopt.reading.record import NamedDiagram
     from knotopt.rehearsal.cut_off import CutOff, FlownResult
     from knotopt.supports.requirements import Requirements
 

@@ -9,7 +9,7 @@ from knotopt.cli.printing import print_facts, print_json, print_note, print_tabl
 from knotopt.cli.solve_printing import search_json, show_search
 
 if TYPE_CHECKING:
-    from knotopt.catalogue.lookup import NamedDiagram
+    from knotopt.reading.record import NamedDiagram
     from knotopt.rehearsal.cut_off import CutOff, FlownResult
 
 

@@ -57,8 +57,8 @@ def span_words(cable: Cable, supports: tuple[int, ...]) -> tuple[Word, ...]:
     With a robot at every turning point each span has the crossings of its grid segment; with
     fewer, a span may have several.
 
-    >>> from knotopt.catalogue.lookup import find_knot
-    >>> cable = Cable(find_knot("3").diagram, "L+")
+    >>> from knotopt.reading.knot import read_knot
+    >>> cable = Cable(read_knot("3").diagram, "L+")
     >>> [" ".join(map(str, word)) for word in span_words(cable, (3, 4, 6)) if word]
     ['over span 1 under span 1 over span 2']
     """

@@ -24,10 +24,8 @@ from dataclasses import dataclass
 
 from knotopt.diagram.grid import GridDiagram
 from knotopt.diagram.sums import connected_sum
-from knotopt.planar.planar_diagram import Crossing, PlanarDiagram
+from knotopt.planar.planar_diagram import End, PlanarDiagram
 from knotopt.planar.sums import summands
-
-End = tuple[int, int]  # of an edge: crossing, and side of it
 
 UNKNOT = GridDiagram((1, 2), (2, 1))
 
@@ -84,7 +82,7 @@ class _Gathering:
     def __init__(self, planar: PlanarDiagram) -> None:
         self.crossings = planar.crossings
         self.signs = planar.signs
-        self.other = _other_ends(planar.crossings)
+        self.other = planar.other_ends
         self.neighbours = [
             {self.other[crossing, side][0] for side in range(4)}
             for crossing in range(len(planar.crossings))
@@ -203,11 +201,3 @@ def _draw_prime(planar: PlanarDiagram) -> GridDiagram:
     return GridDiagram(
         tuple(row[page.tail] for page in pages), tuple(row[page.head] for page in pages)
     )
-
-
-def _other_ends(crossings: tuple[Crossing, ...]) -> dict[End, End]:
-    ends: dict[int, list[End]] = {}
-    for crossing, edges in enumerate(crossings):
-        for side, edge in enumerate(edges):
-            ends.setdefault(edge, []).append((crossing, side))
-    return {here: there for one, two in ends.values() for here, there in ((one, two), (two, one))}

@@ -62,8 +62,8 @@ def optimal_sets(
 
     Examples
     --------
-    >>> from knotopt.catalogue.lookup import find_knot
-    >>> found = optimal_sets(find_knot("9").diagram, cuts=[Cut.parse("L+", 11)])
+    >>> from knotopt.reading.knot import read_knot
+    >>> found = optimal_sets(read_knot("9").diagram, cuts=[Cut.parse("L+", 11)])
     >>> [each.supports for each in found.sets], found.complete
     ([(9, 10, 11), (9, 10, 12), (9, 10, 13)], True)
     """
@@ -121,8 +121,8 @@ def sets_in_order(
     Examples
     --------
     >>> from itertools import islice
-    >>> from knotopt.catalogue.lookup import find_knot
-    >>> for search in islice(sets_in_order(find_knot("9").diagram), 4):
+    >>> from knotopt.reading.knot import read_knot
+    >>> for search in islice(sets_in_order(read_knot("9").diagram), 4):
     ...     print(search.best.cable.cut, search.best.supports, search.is_proven)
     L+ (9, 10, 11) True
     L+ (9, 10, 12) True

@@ -154,8 +154,8 @@ def minimal_supports(
 
     Examples
     --------
-    >>> from knotopt.catalogue.lookup import find_knot
-    >>> best = minimal_supports(Cable(find_knot("5").diagram, "L+"))
+    >>> from knotopt.reading.knot import read_knot
+    >>> best = minimal_supports(Cable(read_knot("5").diagram, "L+"))
     >>> best.robots, best.lcf.robots, best.lcf_report.is_open, best.report.is_open
     (6, 5, False, True)
     >>> best.solution.status, best.solution.bound, best.placed_supports

@@ -144,8 +144,8 @@ def best_supports(
 
     Examples
     --------
-    >>> from knotopt.catalogue.lookup import find_knot
-    >>> search = best_supports(find_knot("9").diagram)
+    >>> from knotopt.reading.knot import read_knot
+    >>> search = best_supports(read_knot("9").diagram)
     >>> search.best.robots, str(search.best.cable.cut), search.is_proven
     (5, 'L+', True)
     >>> [(str(o.cut), o.robots, o.bound) for o in search.outcomes[:3]]

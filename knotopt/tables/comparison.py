@@ -93,8 +93,8 @@ def compare(
 
     Examples
     --------
-    >>> from knotopt.catalogue.lookup import find_knot
-    >>> row = compare("5_1", find_knot("5").diagram)
+    >>> from knotopt.reading.knot import read_knot
+    >>> row = compare("5_1", read_knot("5").diagram)
     >>> [row[f"{method}_robots"] for method in ("lcf", "layered", "opening", "span")]
     [5, 5, 6, 9]
     >>> row["robots_before"], row["lcf_open"]

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from matplotlib.collections import LineCollection
 
-from knotopt import best_cut, find_knot, optimise_path, relax, relaxed_path
+from knotopt import best_cut, optimise_path, read, relax, relaxed_path
 from knotopt.plot.path import draw_heights, draw_plan
 from knotopt.plot.path_figures import braid_figure, path_figure, relaxation_figure
 from tests.helpers.command_line import Cli
@@ -127,7 +127,7 @@ def test_what_is_not_met_is_said_and_the_exit_status_is_1(cli: Cli) -> None:
 
 @pytest.fixture(scope="module")
 def paths() -> Any:
-    chosen = best_cut(find_knot("4").diagram)
+    chosen = best_cut(read("4").diagram)
     ours = optimise_path(chosen.cable, chosen.supports)
     return relaxed_path(chosen.cable, chosen.supports), ours
 

@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 from knotopt.diagram.families import random_knot
+from knotopt.reading.goal import GoalSet
 from knotopt.topology.actions import parse_action
-from knotopt.topology.goals import GoalSet
 from knotopt.topology.legal import R2Rule, apply
 from knotopt.topology.state import TRIVIAL, RopeState
 from tests.helpers.command_line import Cli

@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 from knotopt.cable.cut import Cut
-from knotopt.catalogue.lookup import find_knot
 from knotopt.document.columns import names
 from knotopt.document.formats import WRITERS
+from knotopt.reading.knot import read_knot
 from knotopt.supports.lcf import lcf_by_cut
 from knotopt.supports.search import best_supports
 from knotopt.tables.comparison import COLUMNS, HEADS, compare, tabulated
@@ -19,13 +19,13 @@ from knotopt.tables.methods import USUAL_PROGRAMS
 
 @pytest.fixture(scope="module")
 def rows() -> list[dict[str, Any]]:
-    found = [find_knot(name) for name in ("3", "8_19")]
+    found = [read_knot(name) for name in ("3", "8_19")]
     return [compare(knot.name, knot.diagram, source=knot.source) for knot in found]
 
 
 def test_a_row_agrees_with_each_method_alone(rows: list[dict[str, Any]]) -> None:
     for row, name in zip(rows, ("3", "8_19"), strict=True):
-        diagram = find_knot(name).diagram
+        diagram = read_knot(name).diagram
         cuts = [Cut.parse(cut, diagram.size) for cut in ("L+", "L-", "R+", "R-")]
         cuts += [Cut.parse(cut, diagram.size) for cut in ("B+", "B-", "T+", "T-")]
         assert row["lcf_robots"] == min(each.robots for each in lcf_by_cut(diagram).values())

@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from knotopt.cable.cable import Cable
-from knotopt.catalogue.lookup import find_knot
 from knotopt.errors import CutError, FileFormatError, UnknownKnotError
+from knotopt.reading.goal import GoalSet, read_goal
+from knotopt.reading.knot import read_knot
 from knotopt.topology.cable_state import cable_state
-from knotopt.topology.goals import GoalSet, read_goal
 from knotopt.topology.state import TRIVIAL, RopeState, RopeStateError
 
 OVERHAND = RopeState.from_gauss("U1+ O2+ U3+ O1+ U2+ O3+")
@@ -21,7 +21,7 @@ OVERHAND = RopeState.from_gauss("U1+ O2+ U3+ O1+ U2+ O3+")
 @pytest.mark.parametrize("cut", [None, "L+", "T-"])
 def test_knots(knot: str, cut: str | None) -> None:
     goal = read_goal(knot, cut)
-    named = find_knot(knot)
+    named = read_knot(knot)
     assert goal.cable == Cable(named.diagram, cut or "L+")
     assert goal.states == (cable_state(goal.cable),)
     assert (goal.name, goal.source) == (named.name, named.source)
@@ -87,7 +87,7 @@ def test_small_grids_are_not_taken_for_states(tmp_path: Path, name: str, content
 
 def test_a_grid_file_with_a_knot(tmp_path: Path) -> None:
     path = tmp_path / "grid.json"
-    path.write_text(json.dumps({"grid": find_knot("5_2").diagram.marks}))
+    path.write_text(json.dumps({"grid": read_knot("5_2").diagram.marks}))
     assert read_goal(str(path), "B+").states == read_goal("5_2", "B+").states
 
 

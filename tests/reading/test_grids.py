@@ -10,9 +10,9 @@ from hypothesis import HealthCheck, given, settings
 
 from knotopt.diagram.families import torus_knot
 from knotopt.diagram.grid import GridDiagram
-from knotopt.diagram.reading import read_grid
 from knotopt.errors import FileFormatError
 from knotopt.files import write_atomically
+from knotopt.reading.knot import read_knot
 from tests.helpers.strategies import diagrams
 
 
@@ -37,8 +37,8 @@ def test_every_form_is_read_back(tmp_path: Path, diagram: GridDiagram) -> None:
     for name, (text, expected) in forms.items():
         path = tmp_path / name
         path.write_text(text, encoding="utf-8")
-        assert read_grid(path) == expected, name
-        assert read_grid(str(path)) == expected
+        assert read_knot(path).diagram == expected, name
+        assert read_knot(str(path)).diagram == expected
 
 
 @pytest.mark.parametrize(
@@ -72,20 +72,20 @@ def test_bad_files(tmp_path: Path, name: str, text: str, message: str) -> None:
     path = tmp_path / name
     path.write_text(text)
     with pytest.raises(FileFormatError, match=message):
-        read_grid(path)
+        read_knot(path)
 
 
 def test_unreadable_files(tmp_path: Path) -> None:
     with pytest.raises(FileFormatError, match=r"cannot read .*none.json: No such file"):
-        read_grid(tmp_path / "none.json")
+        read_knot(tmp_path / "none.json")
     (tmp_path / "dir.json").mkdir()
     with pytest.raises(FileFormatError, match="Is a directory"):
-        read_grid(tmp_path / "dir.json")
+        read_knot(tmp_path / "dir.json")
     (tmp_path / "bytes.csv").write_bytes(b"\xff\xfe1")
     with pytest.raises(FileFormatError, match=r"not UTF-8 text \(byte 0\)"):
-        read_grid(tmp_path / "bytes.csv")
+        read_knot(tmp_path / "bytes.csv")
 
 
 def test_torus_knot_survives_the_round_trip_by_file(tmp_path: Path) -> None:
     write_atomically(tmp_path / "t.json", json.dumps({"grid": torus_knot(3, 5).marks}))
-    assert read_grid(tmp_path / "t.json") == torus_knot(3, 5)
+    assert read_knot(tmp_path / "t.json").diagram == torus_knot(3, 5)

@@ -1,0 +1,73 @@
+"""DT codes: lists of even numbers, letters, and SnapPy's `DT:` with flips."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from knotopt.errors import DiagramError
+from knotopt.planar.dt import MOST_LETTERS, dt_numbers, from_dt
+from knotopt.reading.codes import (
+    check_crossings,
+    flat_numbers,
+    is_named,
+    looks_like_dt,
+    up_to_mirror,
+)
+from knotopt.reading.content import Content
+from knotopt.reading.lists import parse_lists
+from knotopt.reading.record import Asked, Reading
+
+_HEAD = re.compile(r"\s*DT(?:\s?code)?\s*(?=[:=\[(\s])\s*[:=]?\s*", re.IGNORECASE)
+_LETTERS = re.compile(r"[\[(\s\"']*([A-Za-z]+)(?:\.([01]*))?[\])\s\"']*")
+_FLIPS = re.compile(r"(\[.*\])\s*,\s*\[([01,\s]*)\]\s*", re.DOTALL)
+
+
+def read(content: Content, asked: Asked) -> Reading | None:
+    """The planar diagram of a DT code: up to mirror image, or exactly if SnapPy's flips are given.
+
+    Letters alone are read if each of the first letters of the alphabet stands once, as in "bca", or
+    if they begin with the numbers of crossings and components, as in "cacbca".
+
+    Raises
+    ------
+    DiagramError
+        Naming the entry or letter that is wrong, or the visit that cannot be reached in the plane.
+    """
+    head = _HEAD.match(content.text)
+    text = content.text[head.end() :] if head else content.text
+    named = is_named(content, asked, "dt") or head is not None
+    flips: list[int] | None = None
+    if letters := _LETTERS.fullmatch(text):
+        word, bits = letters.groups()
+        if not named and not _is_code(word):
+            return None
+        return _reading(dt_numbers(word), None if bits is None else [*map(int, bits)])
+    if named and (flipped := _FLIPS.fullmatch(text)):
+        text, flips = flipped[1], [int(bit) for bit in re.findall("[01]", flipped[2])]
+    if head or flips is not None:
+        content = Content("", parse_lists(text), "dt")
+    numbers = [] if named and content.value == [] else flat_numbers(content)
+    if numbers is not None:
+        return _reading(numbers, flips) if named or looks_like_dt(numbers) else None
+    if named and (rows := content.rows) and len(rows) > 1:
+        raise DiagramError(f"this DT code is a link of {len(rows)} components, a knot has 1")
+    if named:
+        raise DiagramError("a DT code is a list of even numbers, or letters")
+    return None
+
+
+def _reading(numbers: Sequence[int], flips: list[int] | None) -> Reading:
+    check_crossings(len(numbers))
+    diagram = from_dt(numbers, flips)
+    return Reading(diagram, up_to_mirror(diagram) if flips is None else ())
+
+
+def _is_code(word: str) -> bool:
+    """Whether letters without a name are a DT code, and no word: three crossings or more."""
+    if not 3 <= len(word) <= MOST_LETTERS + 3:
+        return False
+    try:
+        return len(dt_numbers(word)) >= 3
+    except DiagramError:
+        return False
