@@ -27,11 +27,11 @@ ALLOWED: Mapping[str, str] = {
     "document": "errors arrays",
     # Knots, cables, ropes.
     "diagram": "errors arrays",
-    "planar": "errors diagram",
+    "planar": "errors arrays diagram",
     "cable": "errors arrays diagram planar",
     "catalogue": "errors files diagram",
     "topology": "errors arrays planar cable",
-    "reading": "errors diagram planar cable catalogue topology",
+    "reading": "errors arrays diagram planar cable catalogue topology",
     # The judges.
     "verify": "errors arrays topology",
     # The makers, each with what its results are judged by.

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from knotopt.cli.formats import FormOption, print_form
 from knotopt.cli.options import JsonOption, KnotArgument, PlotOption
 from knotopt.cli.printing import print_facts, print_json, print_written
 from knotopt.cli.reading import read, reading_in_words
@@ -27,6 +28,7 @@ def show(
             help="Where the knot is opened: L+ L- R+ R- B+ B- T+ T-, or col3+, row5-.",
         ),
     ] = "L+",
+    form: FormOption = None,
     plot: PlotOption = None,
     as_json: JsonOption = False,
 ) -> None:
@@ -34,6 +36,9 @@ def show(
 
     Example: knotopt show 8_19 --plot 8_19.png
     """
+    if form is not None:
+        print_form(knot, form, {"--plot": plot, "--json": as_json})
+        return
     from knotopt.cable.alexander import alexander_polynomial
     from knotopt.cable.cable import Cable
     from knotopt.cli.drawing import draw_text
@@ -122,10 +127,10 @@ def _facts(content: dict[str, Any], fewest: int) -> list[tuple[str, Any]]:
         + (" (twist)" if each["is_twist"] else "")
         for each in content["staircases"]
     ]
-    notes = tuple(content["notes"])
+    form, notes = content["form"], tuple(content["notes"])
     return [
         ("knot", f"{content['knot']} ({content['source']})"),
-        *([("read as", reading_in_words(content["form"], notes))] if notes else []),
+        *([] if form == "name" else [("read as", reading_in_words(form, notes))]),
         ("grid size", f"{content['grid_size']} (smallest found: {content['smallest_grid_found']})"),
         ("cut", f"{content['cut']} of {' '.join(content['crossing_free_cuts'])}"),
         ("turning points", content["turning_points"]),

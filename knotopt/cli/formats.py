@@ -1,0 +1,30 @@
+"""`knotopt show --format`: a knot in the forms that other programs take."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import typer
+
+from knotopt.cli.options import check_choice, refuse
+from knotopt.reading.writing import LISTED_FORMS, WRITTEN_FORMS, write_knot
+
+FormOption = Annotated[
+    str | None,
+    typer.Option(
+        "--format",
+        metavar="NAME",
+        help=f"Print only the closed knot, as one of {LISTED_FORMS}.",
+    ),
+]
+
+
+def print_form(knot: str, form: str, others: dict[str, Any]) -> None:
+    """Print a knot in a form; what else is asked for is refused."""
+    from knotopt.reading.knot import read_knot
+
+    check_choice("--format", form, WRITTEN_FORMS)
+    for option, value in others.items():
+        if value:
+            refuse(option, "does not go with --format, which prints the knot alone")
+    print(write_knot(read_knot(knot).diagram, form), end="")
