@@ -9,6 +9,7 @@ import typer
 
 from formulations.backends import BACKENDS
 from knotopt.atlas.schema import Settings
+from knotopt.cli.completion import knot_names, list_of
 from knotopt.cli.options import CatalogueOption, OpennessOption, given, refuse, unless_given
 from knotopt.cli.printing import print_facts, print_written
 from knotopt.cli.progress import progress_bar
@@ -25,7 +26,11 @@ def atlas(
     run_dir: Annotated[Path, typer.Argument(metavar="RUN_DIR", help="Folder of the results.")],
     knots: Annotated[
         list[str] | None,
-        typer.Argument(metavar="KNOT", help="Knots; by default those of --catalogue."),
+        typer.Argument(
+            metavar="KNOT",
+            autocompletion=knot_names,
+            help="Knots; by default those of --catalogue.",
+        ),
     ] = None,
     catalogue: CatalogueOption = False,
     knotinfo: Annotated[
@@ -46,6 +51,7 @@ def atlas(
         str | None,
         typer.Option(
             metavar="NAME,NAME...",
+            autocompletion=list_of(BACKENDS),
             help=f"Solve the programs by each of these as well: {', '.join(BACKENDS)}.",
         ),
     ] = None,

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from knotopt.cli import options
+from knotopt.cli.completion import among
 from knotopt.cli.fly_printing import show_mission
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import status_line, track
@@ -37,6 +38,7 @@ def fly(
             "Of the smallest set: span (the taut cable itself, which is what is flown) or opening "
             "(polygons through the grid's crossings).",
             metavar="NAME",
+            autocompletion=among(("span", "opening")),
         ),
     ] = None,
     r: Annotated[float | None, options.openness_option(FLOWN.openness)] = None,
@@ -57,7 +59,11 @@ def fly(
         ),
     ] = None,
     schedule: Annotated[
-        str, typer.Option(help="optimised (the fastest), or fixed: at one pace, as in the paper.")
+        str,
+        typer.Option(
+            autocompletion=among(SCHEDULES),
+            help="optimised (the fastest), or fixed: at one pace, as in the paper.",
+        ),
     ] = FlightRequest.schedule,
     step: Annotated[float, typer.Option(help="Metres per grid step.")] = ROOM.step,
     altitude: Annotated[float, typer.Option(help="Of hovering robots [m].")] = ROOM.altitude,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from knotopt.cli import options
+from knotopt.cli.completion import among
 from knotopt.cli.formulations import FormulationOption
 from knotopt.cli.printing import print_facts, print_json, print_note, print_table, print_written
 from knotopt.cli.reading import read
@@ -29,7 +30,9 @@ def path(
     method: Annotated[
         str,
         typer.Option(
-            metavar="NAME", help="nlp (the program), relaxation (the paper's springs), or both."
+            metavar="NAME",
+            autocompletion=among(METHODS),
+            help="nlp (the program), relaxation (the paper's springs), or both.",
         ),
     ] = "nlp",
     cut: options.SupportsCutOption = "best",

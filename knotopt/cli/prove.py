@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from knotopt.cli import options
+from knotopt.cli.completion import among
 from knotopt.cli.formulations import FormulationOption, ThreadingOption
 from knotopt.cli.printing import print_json, print_note, print_table, print_written
 from knotopt.cli.progress import track
@@ -32,6 +33,7 @@ def prove(
         str | None,
         typer.Option(
             metavar="NAME",
+            autocompletion=among(("refutation", "count")),
             help="refutation (by CaDiCaL; the default) or count (the checker examines every "
             "smaller set).",
         ),

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from knotopt.cli.completion import CUTS, among, knot_names
 from knotopt.cli.options import JsonOption, PlotOption, check_choice, refuse
 from knotopt.cli.printing import print_facts, print_json, print_table, print_written
 from knotopt.cli.reading import asked, reading_in_words
@@ -21,6 +22,7 @@ def topology(
         str,
         typer.Argument(
             metavar="KNOT",
+            autocompletion=knot_names,
             help="As for the other commands; or the state of a rope: its matrix, or its signed "
             "Gauss code 'U1+ O2+ U3+ O1+ U2+ O3+'; or a file with one.",
         ),
@@ -29,6 +31,7 @@ def topology(
         str | None,
         typer.Option(
             metavar="CUT",
+            autocompletion=among(CUTS),
             help="Where a knot's diagram is opened: L+ (by default) L- R+ R- B+ B- T+ T-, or "
             "col3+, row5-.",
         ),
@@ -37,6 +40,7 @@ def topology(
         str,
         typer.Option(
             metavar="NAME",
+            autocompletion=among(("one", "mirror", "orbit")),
             help="one (the state itself), mirror (its mirror image too) or orbit (the reverses "
             "as well).",
         ),
@@ -48,6 +52,7 @@ def topology(
         str,
         typer.Option(
             metavar="NAME",
+            autocompletion=among(("paper", "public", "any")),
             help="Which R2 there are: paper (those its parameters tell apart), public (as in the "
             "authors' code) or any.",
         ),
