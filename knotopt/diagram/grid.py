@@ -213,6 +213,14 @@ class GridDiagram:
         """The same diagram with the knot's orientation reversed (A becomes -A)."""
         return GridDiagram(self.plus, self.minus)
 
+    @property
+    def mirrored(self) -> GridDiagram:
+        """The knot's mirror image: the rows in reverse order, columns over rows as before."""
+        above = self.size + 1
+        return GridDiagram(
+            tuple(above - row for row in self.minus), tuple(above - row for row in self.plus)
+        )
+
     def __str__(self) -> str:
         return "\n".join(" ".join(f"{int(entry):2d}" for entry in line) for line in self.matrix)
 

@@ -36,25 +36,14 @@ def faces(planar: PlanarDiagram) -> Faces:
     >>> faces(trefoil).of_corner
     ((0, 1, 2, 3), (0, 3, 2, 4), (0, 4, 2, 1))
     """
-    other = other_ends(planar)
-    face: dict[tuple[int, int], int] = {}
-    count = 0
-    for start in other:
-        here = start
-        if here in face:
-            continue
-        while here not in face:
-            face[here] = count
-            # Left of the edge that leaves at the corner's first side; right of it, seen from there.
-            there, at = other[here]
-            here = there, (at - 1) % 4
-        count += 1
+    # To the left of the edge that leaves at side s is corner s.
+    face = {corner: k for k, corners in enumerate(planar.faces) for corner in corners}
     white: dict[int, bool] = {0: True}
     waiting = [0]
     while waiting:
         c = waiting.pop()
         for side in range(4):
-            there, at = other[c, side]
+            there, at = planar.other_ends[c, side]
             if there not in white:
                 white[there] = white[c] == ((side + at) % 2 == 1)
                 waiting.append(there)
@@ -63,16 +52,3 @@ def faces(planar: PlanarDiagram) -> Faces:
         tuple((face[c, 0], face[c, 1], face[c, 2], face[c, 3]) for c in crossings),
         tuple(white[c] for c in crossings),
     )
-
-
-def other_ends(planar: PlanarDiagram) -> dict[tuple[int, int], tuple[int, int]]:
-    """Of each (crossing, side): the (crossing, side) at the other end of its edge."""
-    ends: dict[int, tuple[int, int]] = {}
-    other = {}
-    for c, crossing in enumerate(planar.crossings):
-        for side, edge in enumerate(crossing):
-            if edge in ends:
-                other[c, side], other[ends[edge]] = ends[edge], (c, side)
-            else:
-                ends[edge] = (c, side)
-    return dict(sorted(other.items()))

@@ -10,13 +10,14 @@ from knotopt.planar.braid import from_braid
 from knotopt.reading.codes import (
     check_crossings,
     flat_numbers,
+    is_named,
     looks_like_dt,
     looks_like_gauss,
 )
 from knotopt.reading.content import Content
 from knotopt.reading.record import Asked, Reading
 
-_HEADS = {"Braid", "BR", "braid", "br", "BRAID"}
+_HEADS = {"Braid", "BR"}
 _PREFIX = re.compile(r"\s*(?:BR|Braid)(?:\s?word)?\s*[:=]\s*", re.IGNORECASE)
 _GENERATOR = re.compile(
     r"(?:s|σ|sigma)_?\{?(\d{1,6})\}?(?:\^?[{(]?([+-]?\d{1,6})[})]?)?(?=[\s*.·,sσ]|$)[\s*.·,]*"
@@ -24,7 +25,7 @@ _GENERATOR = re.compile(
 _SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 
 
-def read(content: Content, _asked: Asked) -> Reading | None:
+def read(content: Content, asked: Asked) -> Reading | None:
     """The planar diagram of a braid's closure; positive letters are positive crossings.
 
     Letters alone, small for positive and capital for negative ("aBaB" is [1, -2, 1, -2]), are read
@@ -37,7 +38,7 @@ def read(content: Content, _asked: Asked) -> Reading | None:
     """
     prefix = _PREFIX.match(content.text)
     text = content.text[prefix.end() :] if prefix else content.text
-    named = content.key.startswith("br") or prefix is not None or bool({*content.heads} & _HEADS)
+    named = is_named(content, asked, "braid", _HEADS) or prefix is not None
     if content.given is None:
         word = _alphabetic(text.strip(), named)
         word = _generators(text.strip()) if word is None else word

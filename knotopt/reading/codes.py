@@ -14,13 +14,14 @@ KnotInfo's table is so near to another code.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any
 
 from knotopt.errors import DiagramError
 from knotopt.planar.embedding import parts
 from knotopt.planar.planar_diagram import PlanarDiagram
 from knotopt.reading.content import Content
+from knotopt.reading.record import Asked
 
 MAX_CROSSINGS = 5000
 """Of a code that is read; to draw one in the plane that tells no signs takes 2 s."""
@@ -35,6 +36,15 @@ def check_crossings(count: int) -> None:
     """
     if count > MAX_CROSSINGS:
         raise DiagramError(f"a code of {count} crossings; up to {MAX_CROSSINGS} are read")
+
+
+def is_named(content: Content, asked: Asked, form: str, heads: Collection[str] = ()) -> bool:
+    """Whether the content is said to be of a form: by who asks, its key, or a word in it."""
+    return (
+        asked.form == form
+        or any(word in content.key.split("_") for word in (form, form[:2]))
+        or not {*content.heads}.isdisjoint(heads)
+    )
 
 
 def flat_numbers(content: Content) -> list[int] | None:

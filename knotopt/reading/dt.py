@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 from knotopt.errors import DiagramError
 from knotopt.planar.dt import MOST_LETTERS, dt_numbers, from_dt
 from knotopt.reading.codes import (
     check_crossings,
     flat_numbers,
+    is_named,
     looks_like_dt,
     up_to_mirror,
 )
@@ -21,7 +23,7 @@ _LETTERS = re.compile(r"[\[(\s\"']*([A-Za-z]+)(?:\.([01]*))?[\])\s\"']*")
 _FLIPS = re.compile(r"(\[.*\])\s*,\s*\[([01,\s]*)\]\s*", re.DOTALL)
 
 
-def read(content: Content, _asked: Asked) -> Reading | None:
+def read(content: Content, asked: Asked) -> Reading | None:
     """The planar diagram of a DT code: up to mirror image, or exactly if SnapPy's flips are given.
 
     Letters alone are read if each of the first letters of the alphabet stands once, as in "bca", or
@@ -34,36 +36,28 @@ def read(content: Content, _asked: Asked) -> Reading | None:
     """
     head = _HEAD.match(content.text)
     text = content.text[head.end() :] if head else content.text
-    named = content.key.startswith("dt") or head is not None
+    named = is_named(content, asked, "dt") or head is not None
+    flips: list[int] | None = None
     if letters := _LETTERS.fullmatch(text):
-        word, flips = letters.groups()
+        word, bits = letters.groups()
         if not named and not _is_code(word):
             return None
-        return _reading(dt_numbers(word), None if flips is None else [*map(int, flips)])
-    if flipped := _FLIPS.fullmatch(text):
-        parsed = parse_lists(flipped[1])
-        content = Content("", parsed, "dt")
-        flips_given = re.findall("[01]", flipped[2])
-    elif head and not content.key:
+        return _reading(dt_numbers(word), None if bits is None else [*map(int, bits)])
+    if named and (flipped := _FLIPS.fullmatch(text)):
+        text, flips = flipped[1], [int(bit) for bit in re.findall("[01]", flipped[2])]
+    if head or flips is not None:
         content = Content("", parse_lists(text), "dt")
-        flips_given = None
-    else:
-        flips_given = None
-    numbers = flat_numbers(content)
-    if numbers is None:
-        if not named:
-            return None
-        if (rows := content.rows) and len(rows) > 1:
-            raise DiagramError(f"this DT code is a link of {len(rows)} components, a knot has 1")
-        if content.value == []:
-            return _reading((), None)
+    numbers = [] if named and content.value == [] else flat_numbers(content)
+    if numbers is not None:
+        return _reading(numbers, flips) if named or looks_like_dt(numbers) else None
+    if named and (rows := content.rows) and len(rows) > 1:
+        raise DiagramError(f"this DT code is a link of {len(rows)} components, a knot has 1")
+    if named:
         raise DiagramError("a DT code is a list of even numbers, or letters")
-    if not named and not looks_like_dt(numbers):
-        return None
-    return _reading(numbers, None if flips_given is None else [*map(int, flips_given)])
+    return None
 
 
-def _reading(numbers: tuple[int, ...] | list[int], flips: list[int] | None) -> Reading:
+def _reading(numbers: Sequence[int], flips: list[int] | None) -> Reading:
     check_crossings(len(numbers))
     diagram = from_dt(numbers, flips)
     return Reading(diagram, up_to_mirror(diagram) if flips is None else ())

@@ -10,6 +10,7 @@ from knotopt.planar.gauss import from_gauss
 from knotopt.reading.codes import (
     check_crossings,
     flat_numbers,
+    is_named,
     looks_like_gauss,
     up_to_mirror,
     whole,
@@ -17,14 +18,14 @@ from knotopt.reading.codes import (
 from knotopt.reading.content import Content
 from knotopt.reading.record import Asked, Reading
 
-_HEADS = {"GaussCode", "Gauss", "gauss"}
+_HEADS = {"GaussCode"}
 _PREFIX = re.compile(r"\s*Gauss(?:\s?code)?\s*[:=]?\s*(?=[OU]\d|\d+[+-])", re.IGNORECASE)
 _VISITS = re.compile(r"\s*(?:[OU]\d|\d+[+-](?:\W|$))", re.IGNORECASE)
 _VISIT = re.compile(r"([OU]?)(\d{1,9})([+-]?)", re.IGNORECASE)
 _SIGNS = {"+": 1, "-": -1}
 
 
-def read(content: Content, _asked: Asked) -> Reading | None:
+def read(content: Content, asked: Asked) -> Reading | None:
     """The planar diagram of a Gauss code: exactly with crossing signs, else up to mirror image.
 
     Raises
@@ -36,7 +37,7 @@ def read(content: Content, _asked: Asked) -> Reading | None:
     if content.given is None and _VISITS.match(text):
         return _visits(text)
     value = content.value
-    named = content.key.startswith(("gauss", "oriented_gauss")) or bool({*content.heads} & _HEADS)
+    named = is_named(content, asked, "gauss", _HEADS)
     if (oriented := _oriented(value)) is not None:
         code, signs = oriented
         return _reading(code, signs)

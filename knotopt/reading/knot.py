@@ -62,7 +62,7 @@ def read_knot(
     ...
     knotopt.errors.UnknownKnotError: no knot is named '8_22'; nearest: 8_2, ...
     """
-    asked = Asked(_checked_over(over))
+    asked = Asked(_checked_over(over), form)
     only = _form_named(form)
     if isinstance(knot, str | Path | Source):
         source = knot if isinstance(knot, Source) else read_source(knot)
@@ -125,7 +125,7 @@ def _finished(found: Reading, title: str, source: Source, *, mirror: bool) -> Na
     """The record of what was read: drawn on a grid if it is not one, mirrored if asked."""
     diagram, notes = found.diagram, list(found.notes)
     if isinstance(diagram, PlanarDiagram):
-        from knotopt.planar.grid_drawing import draw_grid  # type: ignore[import-not-found]
+        from knotopt.planar.grid_drawing import draw_grid
 
         diagram = simplify(draw_grid(diagram))
     name, prime_knot = found.name or source.name or title, found.prime_knot

@@ -9,7 +9,7 @@ from typing import Any
 
 from knotopt.errors import DiagramError
 from knotopt.planar.planar_diagram import PlanarDiagram
-from knotopt.reading.codes import check_crossings, whole
+from knotopt.reading.codes import check_crossings, is_named, whole
 from knotopt.reading.content import Content
 from knotopt.reading.record import Asked, Reading
 
@@ -17,7 +17,7 @@ _HEADS = {"PD", "X", "Xp", "Xm"}  # Xp, Xm: KnotTheory's crossings with their si
 _ATLAS = re.compile(r"X(?:(\d)(\d)(\d)(\d)(?!\d)|(\d{1,6}),(\d{1,6}),(\d{1,6}),(\d{1,6}))[\s,;]*")
 
 
-def read(content: Content, _asked: Asked) -> Reading | None:
+def read(content: Content, asked: Asked) -> Reading | None:
     """The planar diagram of a PD code, its edges numbered from 0, from 1 or in any way.
 
     A link of Spherogram or SnapPy is read by its method `PD_code`.
@@ -31,7 +31,7 @@ def read(content: Content, _asked: Asked) -> Reading | None:
     if callable(getattr(value, "PD_code", None)):
         return Reading(_of_link(value), source="link object")
     heads = set(content.heads)
-    named = content.key.startswith("pd") or bool(heads & _HEADS)
+    named = is_named(content, asked, "pd", _HEADS)
     if isinstance(value, list) and heads <= {*_HEADS, "Loop"} and "Loop" in heads:
         return Reading(PlanarDiagram(()))  # PD[Loop[1]], KnotTheory's unknot
     if crossings := _of_atlas(content.text):

@@ -18,9 +18,12 @@ class Asked:
     ----------
     over : str or None
         "columns" or "rows", which of a grid's segments pass over; None for the form's own way.
+    form : str or None
+        The one form to read the content in, by its name; None if the content decides.
     """
 
     over: str | None = None
+    form: str | None = None
 
 
 @dataclass(frozen=True)
