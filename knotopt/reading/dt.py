@@ -60,7 +60,8 @@ def read(content: Content, asked: Asked) -> Reading | None:
 def _reading(numbers: Sequence[int], flips: list[int] | None) -> Reading:
     check_crossings(len(numbers))
     diagram = from_dt(numbers, flips)
-    return Reading(diagram, up_to_mirror(diagram) if flips is None else ())
+    notes = up_to_mirror(diagram) if flips is None else ()
+    return Reading(diagram, notes, ambiguous=bool(notes))
 
 
 def _is_code(word: str) -> bool:

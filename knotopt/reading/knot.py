@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from knotopt.diagram.grid import GridDiagram
-from knotopt.diagram.simplify import simplify
 from knotopt.errors import FileFormatError, KnotoptError
 from knotopt.planar.planar_diagram import PlanarDiagram
+from knotopt.planar.small_grid import small_grid
 from knotopt.reading import xo
 from knotopt.reading.content import Content
 from knotopt.reading.forms import FORMS, Form
 from knotopt.reading.lists import Lists
 from knotopt.reading.miss import miss
-from knotopt.reading.over import COLUMNS, ROWS, mirrored
+from knotopt.reading.over import COLUMNS, ROWS
 from knotopt.reading.record import Asked, NamedDiagram, Reading
 from knotopt.reading.source import Source, read_source
 
@@ -64,6 +65,8 @@ def read_knot(
     """
     asked = Asked(_checked_over(over), form)
     only = _form_named(form)
+    if isinstance(knot, NamedDiagram):
+        return _mirrored(knot) if mirror else knot
     if isinstance(knot, str | Path | Source):
         source = knot if isinstance(knot, Source) else read_source(knot)
         content = Content(source.text)
@@ -123,25 +126,33 @@ def _under_key(content: Content) -> tuple[Content, Form | None]:
 
 def _finished(found: Reading, title: str, source: Source, *, mirror: bool) -> NamedDiagram:
     """The record of what was read: drawn on a grid if it is not one, mirrored if asked."""
-    diagram, notes = found.diagram, list(found.notes)
+    diagram = found.diagram
     if isinstance(diagram, PlanarDiagram):
-        from knotopt.planar.grid_drawing import draw_grid
-
-        diagram = simplify(draw_grid(diagram))
-    name, prime_knot = found.name or source.name or title, found.prime_knot
-    if mirror:
-        diagram, prime_knot = mirrored(diagram), None
-        notes.append("mirror image, as asked")
-        if found.name:
-            name = name[1:] if name.startswith("m") else f"m{name}"
-    return NamedDiagram(
-        name,
+        diagram = small_grid(diagram)
+    named = NamedDiagram(
+        found.name or source.name or title,
         diagram,
         found.source or source.words,
-        prime_knot,
+        found.prime_knot,
         title,
-        tuple(notes),
-        found.ambiguous and not mirror,
+        tuple(found.notes),
+        found.ambiguous,
+    )
+    return _mirrored(named, is_name=found.name is not None) if mirror else named
+
+
+def _mirrored(named: NamedDiagram, *, is_name: bool = True) -> NamedDiagram:
+    """The mirror image, and so called if the knot has a name of its own."""
+    name = named.name
+    if is_name:
+        name = name[1:] if name.startswith("m") else f"m{name}"
+    return replace(
+        named,
+        name=name,
+        diagram=named.diagram.mirrored,
+        prime_knot=None,
+        notes=(*named.notes, "mirror image, as asked"),
+        ambiguous=False,
     )
 
 
@@ -166,4 +177,6 @@ def _plain(value: Any) -> Any:
         return value.tolist()
     if isinstance(value, list | tuple):
         return [_plain(entry) for entry in value]
+    if isinstance(value, dict):
+        return {key: _plain(entry) for key, entry in value.items()}
     return value

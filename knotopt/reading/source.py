@@ -116,8 +116,8 @@ def decode(content: bytes, what: str) -> str:
     encoding = "utf-8-sig"
     if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         encoding = "utf-16"
-    elif b"\0" in content[:4]:  # UTF-16 without its mark: every other byte of plain text is zero
-        encoding = "utf-16-be" if content[0] == 0 else "utf-16-le"
+    elif b"\0" in (head := content[:64]):  # no mark: of plain text every other byte is zero
+        encoding = "utf-16-be" if head[::2].count(0) > head[1::2].count(0) else "utf-16-le"
     try:
         text = content.decode(encoding)
     except UnicodeDecodeError as error:
