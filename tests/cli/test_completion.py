@@ -20,7 +20,7 @@ def completed(
     monkeypatch.setattr("sys.argv", ["knotopt"])
     with pytest.raises(SystemExit):
         app(prog_name="knotopt")
-    return capsys.readouterr().out.split("\n")[:-1]
+    return capsys.readouterr().out.rstrip("\n").split("\n")
 
 
 OUTER = ["L+", "L-", "R+", "R-", "B+", "B-", "T+", "T-"]
@@ -31,14 +31,14 @@ OUTER = ["L+", "L-", "R+", "R-", "B+", "B-", "T+", "T-"]
     [
         ("knotopt solve 8_2", ["8_2", "8_20", "8_21"]),
         ("knotopt show 7", [f"7_{k}" for k in range(1, 8)] + ["7 Var1", "7 Var2"]),
-        ("knotopt show stev", ["stevedore"]),
+        ("knotopt show granny", ["granny"]),
         ("knotopt compare 3_1 6_", ["6_1", "6_2", "6_3"]),
         ("knotopt topology 3_", ["3_1"]),
         ("knotopt show 3 --cut ", OUTER),
         ("knotopt lcf 3 --cut ", ["best", "all", *OUTER]),
         ("knotopt path 3 --cut b", ["best"]),
         ("knotopt solve 3 --cut a", ["all"]),
-        ("knotopt fly 3 --cut a", []),
+        ("knotopt fly 3 --cut a", [""]),
         ("knotopt solve 3 --solver ", [*BACKENDS]),
         ("knotopt atlas run --solvers highs,", ["highs,cp-sat", "highs,scip", "highs,maxsat"]),
         ("knotopt solve 3 --formulation s", ["span"]),
