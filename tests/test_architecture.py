@@ -39,12 +39,12 @@ ALLOWED: Mapping[str, str] = {
     "path": "formulations errors arrays ranges cable topology verify supports",
     "flight": "formulations errors arrays ranges diagram cable topology verify supports path",
     "sim": "errors arrays ranges diagram cable catalogue verify flight",
-    "rehearsal": "formulations errors arrays diagram cable supports path flight sim",
+    "rehearsal": "formulations errors arrays ranges diagram cable supports path flight sim",
     # What is made of the results.
     "export": "errors arrays flight",
     "viewer": "errors arrays document supports flight",
     "plot": "errors arrays files cable topology supports path flight viewer",
-    "mission": "errors verify supports flight sim rehearsal export viewer plot",
+    "mission": "errors ranges verify supports flight sim rehearsal export viewer plot",
     "tables": "formulations files document diagram cable catalogue supports path plot",
     "atlas": "formulations knotopt errors arrays files document diagram cable catalogue reading "
     "verify supports flight sim plot tables",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -82,7 +83,8 @@ def atlas(
         ),
     ] = Settings.check,
     jobs: Annotated[
-        int | None, typer.Option(min=1, metavar="N", help="Processes; by default one a core.")
+        int | None,
+        typer.Option(min=1, max=1024, metavar="N", help="Processes; by default one a core."),
     ] = None,
     scheduler: Annotated[
         str | None,
@@ -98,7 +100,6 @@ def atlas(
     """
     from knotopt.atlas.run import run_atlas
 
-    listed = _list(knots, grids, catalogue=catalogue, knotinfo=knotinfo)
     if solver_limit is not None and solvers is None:
         refuse("--solver-limit", "goes with --solvers")
     settings = Settings(
@@ -112,6 +113,7 @@ def atlas(
         **given(solver_limit=solver_limit),
     )
     engine = _engine(jobs, scheduler)
+    listed = _list(knots, grids, catalogue=catalogue, knotinfo=knotinfo)
     done = 0
     try:
         with progress_bar("knots", len(listed)) as show:
@@ -158,6 +160,8 @@ def _engine(jobs: int | None, scheduler: str | None) -> Engine:
     from knotopt.atlas.engine import Cluster, Local
 
     if scheduler is not None:
+        if not re.fullmatch(r"[\w.:/@\[\]-]+", scheduler):
+            refuse("--scheduler", f"is an address such as tcp://host:8786, not {scheduler!r}")
         if jobs is not None:
             refuse("--jobs", "a cluster has the workers it has: give --jobs or --scheduler")
         return Cluster(scheduler)

@@ -11,6 +11,7 @@ import typer
 from knotopt.cli import options
 from knotopt.cli.printing import print_json, print_tables, print_written
 from knotopt.cli.progress import track
+from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
     from knotopt.document.columns import Row
@@ -42,16 +43,17 @@ def compare(
     from knotopt.files import resumable_lines
     from knotopt.tables import comparison
 
-    found = options.read_knots(knots, catalogue=catalogue)
     write = None if out is None else writer_for(out)
     limits = options.solver_limits(time_limit)
+    openness = Requirements(openness=r).openness
+    found = options.read_knots(knots, catalogue=catalogue)
 
     def compare_one(named: NamedDiagram) -> Row:
         return comparison.compare(
             named.name,
             named.diagram,
             source=named.source,
-            openness=r,
+            openness=openness,
             cuts=None if cut == "best" else [Cut.parse(cut, named.diagram.size)],
             solver=solver,
             limits=limits,

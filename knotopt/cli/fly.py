@@ -138,7 +138,8 @@ def fly(
     if supports != "milp" and (r is not None or formulation is not None):
         options.refuse("--formulation" if r is None else "--r", "goes with --supports milp")
     requirements = Requirements(
-        formulation or FLOWN.formulation, FLOWN.openness if r is None else r
+        FLOWN.formulation if formulation is None else formulation,
+        FLOWN.openness if r is None else r,
     )
     world = World(step, altitude, floor, ceiling, ROOM.drone_height, ROOM.downwash)
     limits = FlightLimits(
@@ -147,6 +148,8 @@ def fly(
     disturbed = options.given(noise=noise, wind=wind, gust=gust, seed=seed, runs=runs)
     for name in () if sim else disturbed | options.given(tighten=tighten):
         options.refuse(f"--{name}", "goes with --sim")
+    if tighten is not None and not 0 < tighten < math.inf:
+        options.refuse("--tighten", f"is a distance in metres, not {tighten:g}")
     if wind is not None:
         disturbed["wind"] = _wind(wind)
     disturbances = DisturbedFlights(**disturbed).disturbances()

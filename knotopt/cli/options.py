@@ -64,11 +64,15 @@ def cut_option(words: str) -> Any:
 
 
 def _check_picture(path: Path | None) -> Path | None:
-    """A picture's name of a wrong format is refused before anything is computed."""
+    """A picture's name of a wrong format or folder is refused before anything is computed."""
     if path is not None:
+        from knotopt.files import check_file
         from knotopt.plot.figures import check_format
 
         check_format(path)
+        check_file(path)
+        if not path.parent.is_dir():
+            raise OutputError(f"cannot write {path}: there is no folder {path.parent}")
     return path
 
 

@@ -112,13 +112,15 @@ def path(
     )
     if world is not None:
         asked = world.requirements(asked)
+    of_the_set = Requirements(formulation, r)
+    limits = options.solver_limits(time_limit)
     named = read(knot)
-    chosen = choose_supports(named.diagram, supports, cut, Requirements(formulation, r))
+    chosen = choose_supports(named.diagram, supports, cut, of_the_set)
     results: list[PathResult] = []
     if method != "nlp":
         results.append(relaxed_path(chosen.cable, chosen.supports, asked))
     if method != "relaxation":
-        results.append(optimise_path(chosen.cable, chosen.supports, asked, seconds=time_limit))
+        results.append(optimise_path(chosen.cable, chosen.supports, asked, seconds=limits.seconds))
     title = f"{named.name}, cut {chosen.cable.cut}: {chosen.robots} robots ({supports})"
     written = _write(results, title, world, plot, out)
     if as_json:

@@ -53,12 +53,12 @@ def prove(
     from knotopt.supports.certificate import prove as prove_knot
     from knotopt.supports.registry import find_formulation
 
-    found = options.read_knots(knots, catalogue=catalogue)
     asked = Requirements(formulation, r, threading)
     proofs = find_formulation(formulation).proofs
     if method not in (None, *proofs):
         options.refuse("--method", f"expected {' or '.join(proofs)}")
     limits = options.solver_limits(time_limit)
+    found = options.read_knots(knots, catalogue=catalogue)
     settings = [formulation, asked.threading, str(asked.openness), cut, method]
     header = options.run_header("prove", settings, found)
     proven: list[str] = []

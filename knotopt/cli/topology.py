@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from knotopt.reading.goal import Goal
     from knotopt.topology.plan import Plan, PlanGraph
 
+MOST_PLANS = 1_000_000  # that can be listed: a gigabyte
+
 
 def topology(
     goal: Annotated[
@@ -61,7 +63,10 @@ def topology(
         bool, typer.Option("--shortest", help="Only plans with the fewest actions.")
     ] = False,
     plans: Annotated[
-        int, typer.Option(help="How many plans are listed and drawn.", min=0, metavar="K")
+        int,
+        typer.Option(
+            help="How many plans are listed and drawn.", min=0, max=MOST_PLANS, metavar="K"
+        ),
     ] = 10,
     plot: PlotOption = None,
     as_json: JsonOption = False,
