@@ -21,7 +21,7 @@ from knotopt.errors import KnotoptError
 from tests.helpers.command_line import Cli
 
 ARGUMENTS = {
-    **dict.fromkeys(("show", "lcf", "solve", "path", "fly", "topology", "compare", "prove"), ["3"]),
+    **{name: ["3"] for name in "show lcf solve path fly topology compare prove".split()},
     "atlas": ["run", "3"],
     "report": ["no_such_run", "--out", "report"],
     "check": ["no_such_file"],
@@ -55,6 +55,9 @@ UNLIMITED = {"time_limit", "solver_limit", "physics_budget"}
 
 OF_THE_KNOT = {"forbid", "force"}
 """Counted along a knot's path, so it has to be known."""
+
+SAID_LATER = {"cut", "start", "supports", "solver", "over", "form", "scheduler"}
+"""Said to be wrong when the knot is known, or by who is asked at that address."""
 
 COUNTED_OUT = {"count", "max_cut", "payload", "reach", "separation", "seed", "check", "tighten"}
 COUNTED_OUT |= {"crossings", "arc_index", "determinant", "altitude", "ceiling", "verbose"}
@@ -134,16 +137,7 @@ def test_numbers_beyond_all_measure(cli: Cli, command: str, name: str, option: s
 def test_words_that_mean_nothing(cli: Cli, command: str, name: str, option: str) -> None:
     for value in ("", " ", "nan", "\N{LATIN SMALL LETTER E WITH ACUTE}" * 3000):
         words = ended(cli, command, name, option, value)
-        # Cuts, states and sets are said to be wrong once the knot is known.
-        assert words or name in {
-            "cut",
-            "start",
-            "supports",
-            "solver",
-            "over",
-            "form",
-            "scheduler",
-        }, value
+        assert words or name in SAID_LATER, value
 
 
 @pytest.mark.parametrize(("command", "name", "option"), FILES)
