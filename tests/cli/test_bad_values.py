@@ -20,8 +20,9 @@ from knotopt.cli.app import COMMANDS
 from knotopt.errors import KnotoptError
 from tests.helpers.command_line import Cli
 
+ON_KNOTS = ("show", "lcf", "solve", "path", "fly", "topology", "compare", "prove")
 ARGUMENTS = {
-    **{name: ["3"] for name in "show lcf solve path fly topology compare prove".split()},
+    **{name: ["3"] for name in ON_KNOTS},
     "atlas": ["run", "3"],
     "report": ["no_such_run", "--out", "report"],
     "check": ["no_such_file"],
