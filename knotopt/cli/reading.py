@@ -50,7 +50,7 @@ FormOption = Annotated[
 _OPTIONS = (
     ("over", None, OverOption),
     ("mirror", False, MirrorOption),
-    ("form", None, FormOption),
+    ("read_as", None, FormOption),
 )
 _asked: ContextVar[Mapping[str, Any]] = ContextVar("asked", default=MappingProxyType({}))
 
@@ -63,9 +63,9 @@ def reading_options(command: Callable[..., None]) -> Callable[..., None]:
 
     @wraps(command)
     def run(
-        *arguments: Any, over: str | None, mirror: bool, form: str | None, **options: Any
+        *arguments: Any, over: str | None, mirror: bool, read_as: str | None, **options: Any
     ) -> None:
-        token = _asked.set({"over": over, "mirror": mirror, "form": form})
+        token = _asked.set({"over": over, "mirror": mirror, "form": read_as})
         try:
             command(*arguments, **options)
         finally:

@@ -32,8 +32,7 @@ def braid_of_grid(grid: GridDiagram) -> tuple[Word, int]:
     Columns that run down are led round the other way: up from their lower end's row to the top and
     on from the bottom, over all rows. Then all columns run up, side by side, and each row takes its
     strand to another column below those between. Of this, the same with rows for columns, and both
-    for the other direction, the word that is shortest when reduced is taken; it has at most half as
-    many strands as the grid has columns.
+    for the other direction, the word that is shortest when reduced is taken.
 
     Parameters
     ----------
