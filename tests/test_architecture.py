@@ -22,16 +22,17 @@ ALLOWED: Mapping[str, str] = {
     "errors": "",
     "arrays": "",
     "files": "errors",
+    "frames": "errors",
     # What results show of themselves; pictures are found by the name of their module.
     "showing": "errors",
     "ranges": "errors",
     # Documents of whatever there is to say.
-    "document": "errors arrays",
+    "document": "errors arrays frames",
     # Knots, cables, ropes.
     "diagram": "showing errors arrays",
     "planar": "errors arrays diagram",
     "cable": "showing errors arrays diagram planar",
-    "catalogue": "errors files diagram",
+    "catalogue": "errors files diagram frames",
     "topology": "showing errors arrays planar cable",
     "reading": "showing errors arrays diagram planar cable catalogue topology",
     # The judges.
@@ -49,8 +50,8 @@ ALLOWED: Mapping[str, str] = {
     "plot": "errors arrays files diagram cable topology reading supports path flight viewer",
     "mission": "errors ranges verify supports flight sim rehearsal export viewer plot",
     "tables": "formulations files document diagram cable catalogue supports path plot",
-    "atlas": "formulations knotopt errors arrays files document diagram cable catalogue reading "
-    "verify supports flight sim plot tables",
+    "atlas": "formulations knotopt errors arrays files frames document diagram cable catalogue "
+    "reading verify supports flight sim plot tables",
     "api": "formulations errors diagram cable reading supports path flight mission",
     "cli": "formulations knotopt errors files document diagram cable catalogue topology "
     "reading verify supports path flight sim rehearsal plot mission tables atlas",

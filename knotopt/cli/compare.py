@@ -63,9 +63,11 @@ def compare(
         rows = [compare_one(named) for named in track(found, "knots", len(found))]
     else:
         header = options.run_header("compare", [cut, r, solver, time_limit], found)
-        with resumable_lines(
-            out, header, lambda lines: write(comparison.tabulated(list(map(json.loads, lines))))
-        ) as lines:
+
+        def text(lines: list[str]) -> str:
+            return write(comparison.comparison_table(list(map(json.loads, lines))))
+
+        with resumable_lines(out, header, text) as lines:
             rows = list(map(json.loads, lines.done))
             for named in track(found[len(rows) :], "knots", len(found) - len(rows)):
                 rows.append(compare_one(named))
@@ -73,5 +75,5 @@ def compare(
     if as_json:
         print_json(rows)
         return
-    print_tables(comparison.tabulated(rows).document)
+    print_tables(comparison.comparison_table(rows).document)
     print_written(out)
