@@ -24,6 +24,7 @@ from benchmarks import (  # noqa: F401 -- they register themselves
     formulations_growth,
     lcf_catalogue,
     lcf_growth,
+    loops,
     paths_catalogue,
     paths_growth,
     paths_stiffness,
