@@ -25,6 +25,7 @@ from benchmarks import (  # noqa: F401 -- they register themselves
     grids_catalogue,
     lcf_catalogue,
     lcf_growth,
+    loops,
     paths_catalogue,
     paths_growth,
     paths_stiffness,

@@ -10,7 +10,7 @@ import typer
 from formulations.backends import DEFAULT
 from formulations.solution import Limits
 from knotopt.cli import options
-from knotopt.cli.formulations import FormulationOption, ThreadingOption
+from knotopt.cli.formulations import FormulationOption, ThreadingOption, WithOption, with_loops
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import logged_bar, track
 from knotopt.cli.reading import read
@@ -44,6 +44,7 @@ def solve(
     knot: options.KnotArgument,
     formulation: FormulationOption = Requirements.formulation,
     threading: ThreadingOption = None,
+    with_: WithOption = None,
     r: options.OpennessOption = None,
     cut: Annotated[
         str, options.cut_option("best (of the crossing-free cuts), all (each by itself)")
@@ -136,6 +137,7 @@ def solve(
         formulation,
         r,
         threading,
+        with_loops=with_loops(with_),
         separation=separation,
         payload=payload,
         reach=reach,
@@ -240,14 +242,18 @@ def _write(
     """Write the picture (if there is a set) and the program; return what was written."""
     written = []
     if plot is not None and result.found:
-        from knotopt.plot.figures import save_figure, supports_figure
+        from knotopt.plot.figures import loops_figure, save_figure, supports_figure
         from knotopt.supports.registry import find_formulation
 
         asked = result.requirements
         title = f"{name}, cut {result.cable.cut}: {result.robots} robots"
-        title += f" ({asked.formulation}{asked_in_words(asked)})"
-        taut = find_formulation(asked.formulation).is_taut
-        figure = supports_figure(result.lcf.regions, result.supports, title, taut=taut)
+        title += f" ({asked.words}{asked_in_words(asked)})"
+        rules = find_formulation(asked.formulation)
+        if rules.has_openness:
+            regions = result.lcf.regions
+            figure = supports_figure(regions, result.supports, title, taut=rules.is_taut)
+        else:
+            figure = loops_figure(result.cable, result.supports, result.disjoint_loops, title)
         save_figure(figure, plot)
         written.append(plot)
     if export is not None:

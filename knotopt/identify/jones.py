@@ -37,7 +37,8 @@ def jones_polynomial(planar: PlanarDiagram) -> Polynomial:
     # (-A^3)^-writhe times the bracket, at t = A^-4.
     sign = -1 if writhe % 2 else 1
     polynomial = {
-        (3 * writhe + len(planar.crossings) - 2 * power) // 4: sign * coefficient for power, coefficient in bracket.items()
+        (3 * writhe + len(planar.crossings) - 2 * power) // 4: sign * coefficient
+        for power, coefficient in bracket.items()
     }
     return dict(sorted(polynomial.items()))
 
@@ -69,7 +70,9 @@ def _bracket(planar: PlanarDiagram) -> Polynomial:
         sums = after
     # Every sum was closed up as one circle more than the bracket of a circle counts.
     (total,) = sums.values()
-    powers = {power - raised: digit for power, digit in enumerate(kronecker_digits(total, bits)) if digit}
+    powers = {
+        power - raised: digit for power, digit in enumerate(kronecker_digits(total, bits)) if digit
+    }
     return _without_circle(powers)
 
 
