@@ -76,7 +76,7 @@ def loops_figure(
     cable: Cable, supports: Collection[int], loops: Sequence[int], title: str
 ) -> Figure:
     """One panel: supports, the taut cable, and loops, by their crossings' indices, in colours."""
-    figure, (axes,) = _panels(1, cable)
+    figure, (axes,) = _panels(1, cable.diagram.size)
     handles: list[Artist] = [*draw_loops(axes, cable, loops)]
     draw_cable(axes, cable)
     robots = draw_robots(axes, cable, supports)
