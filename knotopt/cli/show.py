@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from knotopt.cli.formats import FormOption, print_form
+from knotopt.cli.completion import CUTS, among
+from knotopt.cli.formats import WrittenOption, print_form
 from knotopt.cli.options import JsonOption, KnotArgument, PlotOption
 from knotopt.cli.printing import print_facts, print_json, print_written
 from knotopt.cli.reading import read, reading_in_words
@@ -25,10 +26,11 @@ def show(
         str,
         typer.Option(
             metavar="CUT",
+            autocompletion=among(CUTS),
             help="Where the knot is opened: L+ L- R+ R- B+ B- T+ T-, or col3+, row5-.",
         ),
     ] = "L+",
-    form: FormOption = None,
+    written: WrittenOption = None,
     plot: PlotOption = None,
     as_json: JsonOption = False,
 ) -> None:
@@ -36,8 +38,8 @@ def show(
 
     Example: knotopt show 8_19 --plot 8_19.png
     """
-    if form is not None:
-        print_form(knot, form, {"--plot": plot, "--json": as_json})
+    if written is not None:
+        print_form(knot, written, {"--plot": plot, "--json": as_json})
         return
     from knotopt.cable.alexander import alexander_polynomial
     from knotopt.cable.cable import Cable
@@ -127,14 +129,10 @@ def _facts(content: dict[str, Any], fewest: int) -> list[tuple[str, Any]]:
         + (" (twist)" if each["is_twist"] else "")
         for each in content["staircases"]
     ]
-    notes = tuple(content["notes"])
+    form, notes = content["form"], tuple(content["notes"])
     return [
         ("knot", f"{content['knot']} ({content['source']})"),
-        *(
-            []
-            if content["form"] == "name"
-            else [("read as", reading_in_words(content["form"], notes))]
-        ),
+        *([] if form == "name" else [("read as", reading_in_words(form, notes))]),
         ("grid size", f"{content['grid_size']} (smallest found: {content['smallest_grid_found']})"),
         ("cut", f"{content['cut']} of {' '.join(content['crossing_free_cuts'])}"),
         ("turning points", content["turning_points"]),

@@ -138,7 +138,6 @@ def solve(
     from knotopt.supports.minimal import all_minimal
     from knotopt.supports.search import supports_by_cut
 
-    named = read(knot)
     asked = Requirements(
         formulation,
         r,
@@ -159,6 +158,8 @@ def solve(
     options.check_suffix(export, "programs are", FORMATS)
     check_out(budget, out, diagrams=diagrams, flown=verify_physics)
     flights = FlightOptions(noise, trials, physics_budget, max_cut, None if diagrams else out)
+    (flights.tests if verify_physics else flights.check_unused)()
+    named = read(knot)
     if verify_physics:
         if cut == "all":
             options.refuse("--cut", "with --verify-physics, give --cut best or a cut's name")
@@ -169,7 +170,6 @@ def solve(
         written = _write(named.name, flown.result, plot if tied else None, export)
         show_flown(named, flown, written, as_json=as_json)
         raise typer.Exit(0 if tied else 1)
-    flights.check_unused()
     if cut == "all":
         cuts = crossing_free_cuts(named.diagram)
         single = supports_by_cut(named.diagram, asked, cuts=cuts, solver=solver, limits=limits)

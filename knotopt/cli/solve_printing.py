@@ -118,8 +118,10 @@ def _facts(search: CutSearch, cut_off: int) -> list[tuple[str, str]]:
     bound = "none known" if search.bound is None else f"{search.bound} robots"
     first = "largest smallest opening, then first" if rules.has_openness else "first on the path"
     equals = first if result.canonical else "any of them"
-    fails = f"not open: closes {closed}" if rules.has_openness else f"not on {closed}"
-    lcf = f"{result.lcf.robots} robots, {fails if closed else rules.adjective}"
+    lcf = f"{result.lcf.robots} robots, "
+    lcf += rules.adjective if result.lcf_report.is_open else f"not {rules.adjective}"
+    if closed:
+        lcf += f": closes {closed}" if rules.has_openness else f": none on {closed}"
     facts = [
         ("formulation", in_words(requirements)),
         ("meaning", rules.meaning),

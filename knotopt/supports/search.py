@@ -17,6 +17,7 @@ from knotopt.cable.cable import Cable
 from knotopt.cable.cut import Cut, crossing_free_cuts
 from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import RequirementError
+from knotopt.showing import ShownShort, plural
 from knotopt.supports.minimal import MinimalSupports, canonical_supports, minimal_supports
 from knotopt.supports.requirements import Requirements
 
@@ -44,8 +45,8 @@ class CutOutcome:
     status: Status
 
 
-@dataclass(frozen=True)
-class CutSearch:
+@dataclass(frozen=True, repr=False)
+class CutSearch(ShownShort):
     """The best cut of a diagram.
 
     Attributes
@@ -61,6 +62,11 @@ class CutSearch:
     best: MinimalSupports
     outcomes: tuple[CutOutcome, ...]
     interrupted: bool = False
+
+    @property
+    def in_words(self) -> str:
+        """The best set, and over how many cuts."""
+        return f"best of {plural(len(self.outcomes), 'cut')}: {self.best.in_words}"
 
     @property
     def status(self) -> Status:
