@@ -19,6 +19,7 @@ EXTRAS = {
     "atlas": "pyarrow",
     "cluster": "distributed",
     "pandas": "pandas",
+    "fast": "numba",
 }
 PACKAGES = (
     "knotopt",
