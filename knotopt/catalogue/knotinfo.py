@@ -24,6 +24,18 @@ _PACKAGE = "database_knotinfo"
 _CACHE_FORMAT = 2
 SHIPPED_CROSSINGS = 10
 """Knots up to this crossing number ship with knotopt itself."""
+LARGEST_CROSSINGS = 13
+"""Crossing number at which KnotInfo's table ends."""
+LARGEST_KNOTS = {
+    "11a": 367,
+    "11n": 185,
+    "11": 552,  # in Conway's list
+    "12a": 1288,
+    "12n": 888,
+    "13a": 4878,
+    "13n": 5110,
+}
+"""How many knots of more crossings KnotInfo has: names end at these numbers."""
 
 
 def is_installed() -> bool:

@@ -5,13 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from knotopt.cli.printing import print_facts, print_json, print_table
+from knotopt.cli.solve_diagrams import diagrams_in_words
 from knotopt.supports.registry import find_formulation
 
 if TYPE_CHECKING:
     from formulations.solution import Enumeration
+    from knotopt.supports.diagram_search import DiagramSearch
     from knotopt.supports.minimal import MinimalSupports
     from knotopt.supports.requirements import Requirements
-    from knotopt.supports.search import CutOutcome, CutSearch, DiagramSearch
+    from knotopt.supports.search import CutOutcome, CutSearch
 
 
 def supports_json(name: str, result: MinimalSupports) -> dict[str, Any]:
@@ -50,10 +52,8 @@ def supports_json(name: str, result: MinimalSupports) -> dict[str, Any]:
     }
 
 
-def search_json(
-    name: str, search: CutSearch, diagram_search: DiagramSearch | None = None
-) -> dict[str, Any]:
-    """What `--json` says of a search over cuts, perhaps of several diagrams."""
+def search_json(name: str, search: CutSearch) -> dict[str, Any]:
+    """What `--json` says of a search over cuts."""
     cable = search.best.cable
     return supports_json(name, search.best) | {
         "proven_over_cuts": search.is_proven,
@@ -68,7 +68,7 @@ def search_json(
             }
             for each in search.outcomes
         ],
-        "diagrams_tried": diagram_search.tried if diagram_search else 1,
+        "diagrams_tried": 1,
         "grid": [list(mark) for mark in cable.diagram.marks],
         "path": [list(mark) for mark in cable.path],
     }
@@ -97,11 +97,7 @@ def show_search(
     print()
     facts = _facts(search, cut_off)
     if diagram_search is not None:
-        words = (
-            f"best of {diagram_search.tried} found by translations and commutations, "
-            f"seed {diagram_search.seed}; others may do better"
-        )
-        facts.insert(1, ("diagrams", words))
+        facts.insert(1, ("diagrams", diagrams_in_words(diagram_search)))
     print_facts(facts)
     if len(search.outcomes) > 1:
         cells = (_outcome_cells(outcome, result.robots) for outcome in search.outcomes)
