@@ -21,7 +21,7 @@ from knotopt.errors import OutputError, require_extra
 from knotopt.files import write_atomically
 
 _PACKAGE = "database_knotinfo"
-_CACHE_FORMAT = 1
+_CACHE_FORMAT = 2
 SHIPPED_CROSSINGS = 10
 """Knots up to this crossing number ship with knotopt itself."""
 
@@ -73,6 +73,12 @@ def _parse() -> list[PrimeKnot]:
             signature=int(row["signature"]),
             alexander=_coefficients(row["alexander_polynomial"]),
             marks=_rows_reversed(json.loads(row["grid_notation"])),
+            other_names=tuple(
+                row[column]
+                for column in ("dt_name", "classical_conway_name")
+                if row[column] not in ("", row["name"])
+            ),
+            symmetry=row["symmetry_type"].strip(),
         )
         for row in rows
         if row["grid_notation"]  # 0_1 has none

@@ -30,6 +30,12 @@ class PrimeKnot:
     alexander : tuple of int
         Alexander polynomial, constant term first, leading coefficient positive.
     marks : tuple of [column, row]
+    other_names : tuple of str
+        The knot's other names in KnotInfo: that of Hoste and Thistlethwaite (3a_1) where it is not
+        the same, that of Conway's list of 11 crossings (11_1).
+    symmetry : str
+        KnotInfo's word for it: "chiral" (neither its reverse nor its mirror image), "reversible",
+        "positive amphicheiral", "negative amphicheiral", "fully amphicheiral".
     """
 
     name: str
@@ -40,6 +46,13 @@ class PrimeKnot:
     signature: int
     alexander: tuple[int, ...]
     marks: tuple[Mark, ...]
+    other_names: tuple[str, ...]
+    symmetry: str
+
+    @property
+    def is_amphicheiral(self) -> bool:
+        """Whether the knot is its own mirror image, orientations aside."""
+        return "amphicheiral" in self.symmetry
 
     @property
     def diagram(self) -> GridDiagram:
@@ -50,13 +63,15 @@ class PrimeKnot:
         """The entry as a JSON object, as the catalogue's files hold it."""
         facts = {key: value for key, value in vars(self).items() if key != "marks"}
         grid = [list(mark) for mark in self.marks]
-        return facts | {"alexander": list(self.alexander), "grid": grid}
+        lists = {"alexander": list(self.alexander), "other_names": list(self.other_names)}
+        return facts | lists | {"grid": grid}
 
     @classmethod
     def from_json(cls, entry: dict[str, Any]) -> PrimeKnot:
         """The inverse of `to_json`."""
         facts = {key: value for key, value in entry.items() if key != "grid"}
-        facts["alexander"] = tuple(entry["alexander"])
+        for key in ("alexander", "other_names"):
+            facts[key] = tuple(entry[key])
         return cls(**facts, marks=tuple((column, row) for column, row in entry["grid"]))
 
 
@@ -71,6 +86,29 @@ def shipped_knots() -> dict[str, PrimeKnot]:
     (249, 7, (1, -3, 1))
     """
     return {entry["name"]: PrimeKnot.from_json(entry) for entry in shipped_json("prime_knots.json")}
+
+
+@cache
+def unknot() -> PrimeKnot:
+    """The knot 0_1, on the grid of size 2; it is prime no more than 1 is, and in no list.
+
+    Examples
+    --------
+    >>> unknot().name, unknot().diagram.size
+    ('0_1', 2)
+    """
+    return PrimeKnot(
+        name="0_1",
+        crossing_number=0,
+        arc_index=2,
+        alternating=True,
+        determinant=1,
+        signature=0,
+        alexander=(1,),
+        marks=((1, 1), (1, 2), (2, 1), (2, 2)),
+        other_names=(),
+        symmetry="fully amphicheiral",
+    )
 
 
 def shipped_json(name: str) -> list[dict[str, Any]]:
