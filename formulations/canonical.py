@@ -12,7 +12,11 @@ from formulations.timing import Deadline
 
 
 class Program(Protocol):
-    """A formulation whose rows depend on an openness."""
+    """A formulation whose rows depend on an openness.
+
+    It may also have `at_once`: the canonical one of its smallest sets as a `Solution` that needs no
+    solver, or None where it cannot tell.
+    """
 
     @property
     def levels(self) -> FloatArray:

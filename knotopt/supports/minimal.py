@@ -110,7 +110,7 @@ class MinimalSupports(SupportSet):
     def _examine(self, supports: tuple[int, ...]) -> OpeningReport:
         cable, asked = self.cable, self.requirements
         openness = asked.openness if asked.max_robots is None else Fraction(1, 10**6)
-        check = find_formulation(asked.formulation).check
+        check = find_formulation(asked.formulation).checker(with_loops=asked.with_loops)
         return check(cable.path, cable.diagram.size, supports, openness, asked.threading)
 
 
@@ -132,7 +132,9 @@ def minimal_supports(
     requirements : Requirements, optional
         By default formulation `opening` with r = 0.5.
     solver : str
-        "cp-sat", "highs", "scip", "maxsat" or "exhaustive".
+        "cp-sat", "highs", "scip", "maxsat" or "exhaustive". Where the program gives its smallest
+        set without a solver (`loops`, if the team asks for nothing else), the default leaves it to
+        it.
     limits : Limits, optional
         Time, gap, threads, seed; the time is shared by all solves of this call. It is not looked at
         while the program is compiled.
@@ -175,9 +177,22 @@ def minimal_supports(
             result = _widest(program, seeded, asked, backend, deadline)
         else:
             instance = program.instance(float(asked.openness**2))
-            solution = _solve(instance, backend, deadline, better_than)
-            result = _result(seeded, asked, program, instance, solution, solution.chosen)
-            if canonical and result.found:
+            known = getattr(program, "at_once", None) if solver == DEFAULT else None
+            if known is not None:
+                known = replace(known, threads=limits.threads, seed=limits.seed)
+                solution = _if_better(known, better_than)
+            else:
+                solution = _solve(instance, backend, deadline, better_than)
+            result = _result(
+                seeded,
+                asked,
+                program,
+                instance,
+                solution,
+                solution.chosen,
+                canonical=known is not None,
+            )
+            if canonical and result.found and known is None:
                 result = canonical_supports(result, solver=solver, limits=deadline.left())
         if explain and result.solution.status is Status.INFEASIBLE:
             groups, sure = conflict(result.instance, backend, deadline.left())
@@ -290,6 +305,13 @@ def _at_hand(solution: Solution, instance: Instance) -> Solution:
                 objective=len(chosen),
             )
     return solution
+
+
+def _if_better(known: Solution, better_than: int | None) -> Solution:
+    """A smallest set that is known, if it has fewer than `better_than` robots."""
+    if better_than is None or known.bound is None or known.bound < better_than:
+        return known
+    return replace(known, status=Status.INFEASIBLE, chosen=None, objective=None)
 
 
 def _solve(

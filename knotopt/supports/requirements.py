@@ -22,11 +22,16 @@ class Requirements:
     ----------
     formulation : str
         `opening`: polygons through the grid's crossings stay open. `span`: the taut cable itself,
-        whose crossings move, keeps them. Or another one of `knotopt.supports.registry`.
+        whose crossings move, keeps them. `loops`: a support on every loop. Or another one of
+        `knotopt.supports.registry`.
     openness : Fraction, float or str, optional
         r in (0, 1] [grid steps], in thousandths; 0.5 by default. Not with `max_robots`.
     threading : Threading, optional
-        By default the formulation's: `turning-point` for `opening`, `over-under` for `span`.
+        By default the formulation's: `over-under` for `span`, else `turning-point`.
+    with_loops : bool, optional
+        Whether every loop of the cable must hold a support, too, as in `loops`, so that no crossing
+        vanishes when the cable is straight between robots. By default only for `span`: the safe
+        set.
     separation : float, optional
         Smallest distance between any two robots [grid steps].
     payload : float, optional
@@ -61,6 +66,7 @@ class Requirements:
     formulation: str = "opening"
     openness: Fraction = Fraction(1, 2)
     threading: Threading = Threading.TURNING_POINT
+    with_loops: bool = False
     separation: float | None = None
     payload: float | None = None
     reach: float | None = None
@@ -75,6 +81,7 @@ class Requirements:
         openness: Fraction | float | str | None = None,
         threading: Threading | str | None = None,
         *,
+        with_loops: bool | None = None,
         separation: float | None = None,
         payload: float | None = None,
         reach: float | None = None,
@@ -95,6 +102,7 @@ class Requirements:
             "formulation": rules.name,
             "openness": _openness(rules.openness if openness is None else openness),
             "threading": _threading(rules, threading),
+            "with_loops": _with_loops(rules, with_loops),
             "separation": _positive(separation, "the separation"),
             "payload": _positive(payload, "the longest span"),
             "reach": _positive(reach, "the reach"),
@@ -143,6 +151,11 @@ def _threading(rules: Formulation[Any], mode: str | None) -> Threading:
             f"no threading mode is named {mode!r} in {rules.name}: expected one of {names}"
         )
     return Threading(mode)
+
+
+def _with_loops(rules: Formulation[Any], wanted: bool | None) -> bool:
+    """Whether the loops' rows are added: never to a formulation that consists of them."""
+    return (rules.with_loops if wanted is None else wanted) and rules.name != "loops"
 
 
 def _openness(value: Fraction | float | str) -> Fraction:

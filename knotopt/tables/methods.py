@@ -99,6 +99,7 @@ class SmallestSet(Method):
 
     formulation: str = "opening"
     threading: Threading = Threading.TURNING_POINT
+    with_loops: bool = False
     known = (
         Column("robots", int, "robots of a smallest open set, {}", True),
         Column("cut", str, "first cut where a smallest open set has the fewest robots, {}"),
@@ -121,11 +122,11 @@ class SmallestSet(Method):
 
     def requirements(self, openness: Fraction | float | None = None) -> Requirements:
         """What is asked of a set, with r = `openness` [grid steps]."""
-        return Requirements(self.formulation, openness, self.threading)
+        return Requirements(self.formulation, openness, self.threading, with_loops=self.with_loops)
 
     def is_met(self, cable: Cable, supports: Supports, openness: Fraction) -> bool:
         """Whether the independent checker finds a set open by the definition, r = `openness`."""
-        check = find_formulation(self.formulation).check
+        check = find_formulation(self.formulation).checker(with_loops=self.with_loops)
         return check(cable.path, cable.diagram.size, supports, openness, self.threading).is_open
 
 
