@@ -38,6 +38,7 @@ ALLOWED: Mapping[str, str] = {
     "supports": "formulations errors arrays diagram cable verify",
     "path": "formulations errors arrays ranges cable topology verify supports",
     "flight": "formulations errors arrays ranges diagram cable topology verify supports path",
+    "laid": "formulations errors diagram planar cable supports path flight",
     "sim": "errors arrays ranges diagram cable catalogue verify flight",
     "rehearsal": "formulations errors arrays diagram cable supports path flight sim",
     # What is made of the results.

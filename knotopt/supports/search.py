@@ -58,11 +58,14 @@ class CutSearch:
         One for every cut, in order.
     interrupted : bool
         Whether Ctrl-C ended the search.
+    cut_off : int
+        Sets that failed a further test, each cut off with others by a row of its own.
     """
 
     best: MinimalSupports
     outcomes: tuple[CutOutcome, ...]
     interrupted: bool = False
+    cut_off: int = 0
 
     @property
     def status(self) -> Status:
