@@ -51,7 +51,7 @@ ALLOWED: Mapping[str, str] = {
     "verify supports flight sim plot tables",
     "api": "formulations errors diagram cable reading supports path flight mission",
     "cli": "formulations knotopt errors files document diagram cable catalogue topology "
-    "reading verify supports path flight sim rehearsal plot mission tables atlas",
+    "reading verify supports path flight laid sim rehearsal plot mission tables atlas",
     "__main__": "cli",
     "benchmarks": "formulations errors arrays files document diagram cable catalogue topology "
     "reading verify supports path flight sim rehearsal plot mission tables atlas cli",

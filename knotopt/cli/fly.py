@@ -11,6 +11,7 @@ import typer
 
 from knotopt.cli import options
 from knotopt.cli.fly_printing import show_mission
+from knotopt.cli.formulations import WithOption, with_loops
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import status_line, track
 from knotopt.flight.limits import ROOM, FlightLimits
@@ -38,6 +39,7 @@ def fly(
             metavar="NAME",
         ),
     ] = None,
+    with_: WithOption = None,
     r: Annotated[float | None, options.openness_option(FLOWN.openness)] = None,
     sim: Annotated[
         bool,
@@ -129,10 +131,13 @@ def fly(
     from knotopt.supports.selection import equally_small
 
     options.check_choice("--schedule", schedule, SCHEDULES)
-    if supports != "milp" and (r is not None or formulation is not None):
-        options.refuse("--formulation" if r is None else "--r", "goes with --supports milp")
+    if supports != "milp":
+        for option in options.given(r=r, formulation=formulation, **{"with": with_}):
+            options.refuse(f"--{option}", "goes with --supports milp")
     requirements = Requirements(
-        formulation or FLOWN.formulation, FLOWN.openness if r is None else r
+        formulation or FLOWN.formulation,
+        FLOWN.openness if r is None else r,
+        with_loops=with_loops(with_),
     )
     world = World(step, altitude, floor, ceiling, ROOM.drone_height, ROOM.downwash)
     limits = FlightLimits(

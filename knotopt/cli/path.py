@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from knotopt.cli import options
-from knotopt.cli.formulations import FormulationOption
+from knotopt.cli.formulations import FormulationOption, WithOption, with_loops
 from knotopt.cli.printing import print_facts, print_json, print_note, print_table, print_written
 from knotopt.path.requirements import PathRequirements
 from knotopt.path.world import World
@@ -33,6 +33,7 @@ def path(
     ] = "nlp",
     cut: options.SupportsCutOption = "best",
     formulation: FormulationOption = Requirements.formulation,
+    with_: WithOption = None,
     r: options.OpennessOption = None,
     clearance: Annotated[
         float, typer.Option(help="Smallest distance of strands in plan [grid steps].")
@@ -99,8 +100,11 @@ def path(
     options.check_suffix(out, "curves are", (".csv",))
     if out is not None and method == "both":
         options.refuse("--out", "writes one curve: give --method nlp or relaxation")
-    if supports != "milp" and (r is not None or formulation != Requirements.formulation):
-        options.refuse("--formulation" if r is None else "--r", "goes with --supports milp")
+    if supports != "milp":
+        given = {"--r": r, "--with": with_, "--formulation": formulation}
+        for option, value in given.items():
+            if value not in (None, Requirements.formulation):
+                options.refuse(option, "goes with --supports milp")
     height = {"drone_height": drone_height, "downwash": downwash}
     room = options.given(altitude=altitude, floor=floor, ceiling=ceiling, **height)
     world = _world(step, room, gap)
@@ -110,7 +114,8 @@ def path(
     if world is not None:
         asked = world.requirements(asked)
     named = read_knot(knot)
-    chosen = choose_supports(named.diagram, supports, cut, Requirements(formulation, r))
+    of_smallest = Requirements(formulation, r, with_loops=with_loops(with_))
+    chosen = choose_supports(named.diagram, supports, cut, of_smallest)
     results: list[PathResult] = []
     if method != "nlp":
         results.append(relaxed_path(chosen.cable, chosen.supports, asked))

@@ -10,9 +10,9 @@ import typer
 from formulations.backends import DEFAULT
 from formulations.solution import Limits
 from knotopt.cli import options
-from knotopt.cli.formulations import FormulationOption, ThreadingOption
+from knotopt.cli.formulations import FormulationOption, ThreadingOption, WithOption, with_loops
 from knotopt.cli.printing import print_json, print_written
-from knotopt.cli.progress import logged_bar, track
+from knotopt.cli.progress import logged_bar, status_line, track
 from knotopt.cli.solve_flown import (
     FlightOptions,
     MaxCutOption,
@@ -43,6 +43,7 @@ def solve(
     knot: options.KnotArgument,
     formulation: FormulationOption = Requirements.formulation,
     threading: ThreadingOption = None,
+    with_: WithOption = None,
     r: options.OpennessOption = None,
     cut: Annotated[
         str, options.cut_option("best (of the crossing-free cuts), all (each by itself)")
@@ -88,6 +89,14 @@ def solve(
             help="At most so many robots; the smallest opening is maximised instead.", metavar="K"
         ),
     ] = None,
+    laid: Annotated[
+        bool,
+        typer.Option(
+            "--laid",
+            help="The cable laid in straight spans must be the knot, by invariants; sets that fail "
+            "are cut off.",
+        ),
+    ] = False,
     verify_physics: Annotated[
         bool,
         typer.Option(
@@ -126,16 +135,15 @@ def solve(
     Example: knotopt solve '7 Var2' --formulation span --plot supports.png
     """
     from formulations.export import FORMATS
-    from knotopt.cable.cut import crossing_free_cuts
     from knotopt.reading.knot import read_knot
     from knotopt.supports.minimal import all_minimal
-    from knotopt.supports.search import supports_by_cut
 
     named = read_knot(knot)
     asked = Requirements(
         formulation,
         r,
         threading,
+        with_loops=with_loops(with_),
         separation=separation,
         payload=payload,
         reach=reach,
@@ -148,26 +156,28 @@ def solve(
         options.refuse("--count", "goes with --all")
     about_one_cut = {"--plot": plot, "--export": export, "--all": every}
     _check_options(cut, diagrams, about_one_cut, numbers=bool(forbid or force))
+    about_others = {"--all": every, "--diagrams": diagrams > 1, "--max-robots": max_robots}
+    if laid:
+        _refuse_any(about_others | {"--cut all": cut == "all"}, "does not go with --laid")
     options.check_suffix(export, "programs are", FORMATS)
     flights = FlightOptions(noise, trials, physics_budget, max_cut, out)
     if verify_physics:
         if cut == "all":
             options.refuse("--cut", "with --verify-physics, give --cut best or a cut's name")
-        others = {"--all": every, "--diagrams": diagrams > 1, "--max-robots": max_robots}
-        _refuse_any(others, "does not go with --verify-physics")
-        flown = fly_sets(named, asked, cut, flights, solver=solver, limits=limits)
+        _refuse_any(about_others, "does not go with --verify-physics")
+        flown = fly_sets(named, asked, cut, flights, laid=laid, solver=solver, limits=limits)
         tied = flown.status == "tied"
         written = _write(named.name, flown.result, plot if tied else None, export)
         show_flown(named, flown, written, as_json=as_json)
         raise typer.Exit(0 if tied else 1)
     flights.check_unused()
     if cut == "all":
-        cuts = crossing_free_cuts(named.diagram)
-        found = supports_by_cut(named.diagram, asked, cuts=cuts, solver=solver, limits=limits)
-        results = track(found, "cuts", len(cuts), lambda result: result.cable.cut)
-        show_cuts(named.name, list(results), as_json=as_json)
+        results = _each_cut(named.diagram, asked, solver, limits)
+        show_cuts(named.name, results, as_json=as_json)
         return
-    search, diagram_search = _search(named.diagram, asked, cut, diagrams, solver, limits)
+    search, diagram_search = (_laid if laid else _search)(
+        named.diagram, asked, cut, diagrams, solver, limits
+    )
     result, sets = search.best, None
     if every and result.found:
         sets = all_minimal(result, count=count or MOST_SETS, solver=solver, limits=limits)
@@ -233,20 +243,50 @@ def _search(
     return search, None
 
 
+def _each_cut(
+    diagram: GridDiagram, asked: Requirements, solver: str, limits: Limits
+) -> list[MinimalSupports]:
+    """Every cut by itself; progress is shown."""
+    from knotopt.cable.cut import crossing_free_cuts
+    from knotopt.supports.search import supports_by_cut
+
+    cuts = crossing_free_cuts(diagram)
+    found = supports_by_cut(diagram, asked, cuts=cuts, solver=solver, limits=limits)
+    return list(track(found, "cuts", len(cuts), lambda result: result.cable.cut))
+
+
+def _laid(
+    diagram: GridDiagram, asked: Requirements, cut: str, _: int, solver: str, limits: Limits
+) -> tuple[CutSearch, None]:
+    """The best cut, of sets that lay the knot."""
+    from knotopt.cable.cut import Cut
+    from knotopt.laid.smallest import LaidCuts
+    from knotopt.supports.by_size import sets_in_order
+
+    cuts = None if cut == "best" else [Cut.parse(cut, diagram.size)]
+    solving: dict[str, Any] = {"solver": solver, "limits": limits}
+    with status_line("solving"):
+        return next(sets_in_order(diagram, asked, cuts=cuts, lacks=LaidCuts(), **solving)), None
+
+
 def _write(
     name: str, result: MinimalSupports, plot: Path | None, export: Path | None
 ) -> list[Path]:
     """Write the picture (if there is a set) and the program; return what was written."""
     written = []
     if plot is not None and result.found:
-        from knotopt.plot.figures import save_figure, supports_figure
+        from knotopt.plot.figures import loops_figure, save_figure, supports_figure
         from knotopt.supports.registry import find_formulation
 
         asked = result.requirements
         title = f"{name}, cut {result.cable.cut}: {result.robots} robots"
-        title += f" ({asked.formulation}{asked_in_words(asked)})"
-        taut = find_formulation(asked.formulation).is_taut
-        figure = supports_figure(result.lcf.regions, result.supports, title, taut=taut)
+        title += f" ({asked.words}{asked_in_words(asked)})"
+        rules = find_formulation(asked.formulation)
+        if rules.has_openness:
+            regions = result.lcf.regions
+            figure = supports_figure(regions, result.supports, title, taut=rules.is_taut)
+        else:
+            figure = loops_figure(result.cable, result.supports, result.disjoint_loops, title)
         save_figure(figure, plot)
         written.append(plot)
     if export is not None:

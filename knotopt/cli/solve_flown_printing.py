@@ -90,7 +90,7 @@ _ENDED = {
 def claim(flown: FlownResult) -> str:
     """What is proven, what was seen in flights, and what is not known."""
     best, count, smaller = flown.result, len(flown.cut_off), flown.smaller_cut_off
-    rows = f"the rows of `{best.requirements.formulation}`"
+    rows = f"the rows of `{best.requirements.words}`"
     many = len(flown.search.outcomes)
     where = f"over the {many} cuts searched" if many > 1 else "on this cut"
     sentences = []

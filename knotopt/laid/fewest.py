@@ -88,8 +88,8 @@ def fewest_by_claim(candidates: Collection[str], alexander: Sequence[int]) -> Fe
 
     Examples
     --------
-    >>> from knotopt.laid.fewest import fewest_by_claim
-    >>> [fewest_by_claim([name], ()).robots for name in ("0_1", "m3_1", "4_1", "3_1#5_1", "T(2,15)")]
+    >>> names = ("0_1", "m3_1", "4_1", "3_1#5_1", "T(2,15)")
+    >>> [fewest_by_claim([name], ()).robots for name in names]
     [2, 3, 4, 3, 3]
     >>> fewest_by_claim([], (1, -3, 1)).robots, fewest_by_claim([], (1, -2, 3, -2, 1)).robots
     (4, 3)

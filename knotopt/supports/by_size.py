@@ -158,12 +158,14 @@ def sets_in_order(
         best = canonical_supports(state.result, solver=solver, limits=limits)
         if state.cut_off(best, lacks):
             continue
-        yield CutSearch(best, tuple(each.outcome for each in states), cut_off=_count(states))
+        cut_off = None if lacks is None else _clauses(states)
+        yield CutSearch(best, tuple(each.outcome for each in states), cut_off=cut_off)
         state.exclude(best.supports)
-    yield _nothing_left(asked, states, solver, limits)
+    nothing = _nothing_left(asked, states, solver, limits)
+    yield nothing if lacks is None else replace(nothing, cut_off=_clauses(states))
 
 
-def _count(states: list[_CutState]) -> int:
+def _clauses(states: list[_CutState]) -> int:
     """How many sets have failed the test."""
     return sum(len(state.asked.clauses) for state in states)
 
@@ -267,4 +269,4 @@ def _nothing_left(
     passed = any(state.asked.excluded or state.asked.clauses for state in states)
     if best.solution.status is Status.INFEASIBLE and not passed:
         best = minimal_supports(first.cable, asked, solver=solver, limits=limits)
-    return CutSearch(best, outcomes, cut_off=_count(states))
+    return CutSearch(best, outcomes)

@@ -67,6 +67,10 @@ class Formulation(Generic[P]):
         Whether it is about the taut cable, straight between robots, which pictures then show.
     has_openness : bool
         Whether its sets depend on r.
+    adjective : str
+        What a set is that meets it.
+    meaning : str
+        What its smallest number is, and is not, for the reader; "" where `words` say it all.
     with_loops : bool
         Whether a support on every loop is asked for, too, where nothing is said of it.
     """
@@ -80,6 +84,8 @@ class Formulation(Generic[P]):
     threads_once: bool = False
     is_taut: bool = False
     has_openness: bool = True
+    adjective: str = "open"
+    meaning: str = ""
     with_loops: bool = False
 
     def checker(self, *, with_loops: bool) -> Checker:

@@ -111,4 +111,7 @@ LOOPS = Formulation(
     },
     is_taut=True,
     has_openness=False,
+    adjective="piercing",
+    meaning="the fewest robots that lay this diagram with straight spans; no bound for flights of "
+    "the knot",
 )

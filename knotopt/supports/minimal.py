@@ -7,7 +7,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from formulations.backends import DEFAULT, get_backend
-from formulations.canonical import Program, lexicographically_first, widest
+from formulations.canonical import Program, at_once, lexicographically_first, widest
 from formulations.infeasible import Group, conflict
 from formulations.instance import Instance
 from formulations.solution import (
@@ -25,6 +25,7 @@ from formulations.timing import Deadline
 from knotopt.cable.cable import Cable
 from knotopt.errors import MissingExtraError, RequirementError, SolverError
 from knotopt.supports.lcf import LcfResult, lcf
+from knotopt.supports.loops import LOOPS, disjoint_loops
 from knotopt.supports.registry import find_formulation
 from knotopt.supports.requirements import Requirements
 from knotopt.supports.support_set import SupportSet
@@ -102,6 +103,16 @@ class MinimalSupports(SupportSet):
         return self._examine(self.lcf.supports)
 
     @property
+    def disjoint_loops(self) -> tuple[int, ...]:
+        """Where every loop must hold a support: as many loops as possible of which no two have a
+        turning point in common, as indices into the cable's crossings. Each needs its own.
+        """
+        asked = self.requirements
+        if asked.with_loops or asked.formulation == LOOPS.name:
+            return disjoint_loops(self.cable)
+        return ()
+
+    @property
     def smallest_opening(self) -> float | None:
         """Smallest distance of a threading point from a span [grid steps]; None without any."""
         squared = self.report.smallest_opening_squared
@@ -177,7 +188,7 @@ def minimal_supports(
             result = _widest(program, seeded, asked, backend, deadline)
         else:
             instance = program.instance(float(asked.openness**2))
-            known = getattr(program, "at_once", None) if solver == DEFAULT else None
+            known = at_once(program) if solver == DEFAULT else None
             if known is not None:
                 known = replace(known, threads=limits.threads, seed=limits.seed)
                 solution = _if_better(known, better_than)

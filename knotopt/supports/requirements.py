@@ -128,6 +128,11 @@ class Requirements:
         if max_robots is not None and max_robots < 2:
             raise RequirementError(f"two robots hold the cable's ends; at most {max_robots} cannot")
 
+    @property
+    def words(self) -> str:
+        """The formulation, and whether it is with loops."""
+        return f"{self.formulation} with loops" if self.with_loops else self.formulation
+
     def check_points(self, count: int) -> None:
         """Whether the points named exist on a path of `count` turning points.
 

@@ -103,6 +103,8 @@ def test_compare(cli: Cli, tmp_path: Path) -> None:
     rows = cli.json("compare", "3", "5", "8_19")
     assert [row["opening_robots"] for row in rows] == [5, 6, 9]
     assert [row["span_robots"] for row in rows] == [7, 9, 10]
+    assert [row["safe_robots"] for row in rows] == [7, 9, 10]
+    assert [row["loops_robots"] for row in rows] == [3, 3, 4]
     assert [row["lcf_open"] for row in rows] == [False, False, True]
     for suffix in ("csv", "md", "tex"):
         status, out, _ = cli("compare", "3", "5", "--out", tmp_path / f"a.{suffix}")
@@ -123,7 +125,7 @@ def test_compare(cli: Cli, tmp_path: Path) -> None:
     assert "| mean of 2 |" in (tmp_path / "a.md").read_text()
     latex = (tmp_path / "a.tex").read_text()
     assert "\\toprule" in latex and "5\\_1 (Table I, row 5) & 14 & 5 & no &" in latex
-    assert latex.count("&") == 8 * 4 + 9 * 5 and "opening & nlp & 2 of 2 & 2 of 2" in latex
+    assert latex.count("&") == 10 * 4 + 9 * 5 and "opening & nlp & 2 of 2 & 2 of 2" in latex
     assert cli("compare", "3", "--cut", "T-")[0] == 0
     for arguments, code, message in (
         ((), 2, "give knots, or --catalogue"),
