@@ -54,7 +54,7 @@ ALLOWED: Mapping[str, str] = {
     "reading verify supports path flight laid sim rehearsal plot mission tables atlas",
     "__main__": "cli",
     "benchmarks": "formulations errors arrays files document diagram cable catalogue topology "
-    "reading verify supports path flight sim rehearsal plot mission tables atlas cli",
+    "reading verify supports path flight laid sim rehearsal plot mission tables atlas cli",
 }
 """What each package, or module right in `knotopt`, may import of the others; lower ones first."""
 
