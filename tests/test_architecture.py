@@ -44,6 +44,7 @@ ALLOWED: Mapping[str, str] = {
     "path": "showing formulations errors arrays ranges cable topology verify supports",
     "flight": "showing formulations errors arrays ranges diagram cable topology verify supports "
     "path",
+    "laid": "formulations errors diagram planar cable supports path flight",
     "sim": "errors arrays ranges diagram cable catalogue verify flight",
     "rehearsal": "formulations errors arrays ranges diagram cable supports path flight sim",
     # What is made of the results.
@@ -56,10 +57,10 @@ ALLOWED: Mapping[str, str] = {
     "reading verify supports flight sim plot tables",
     "api": "formulations errors diagram cable reading supports path flight mission",
     "cli": "formulations knotopt errors files document diagram search cable catalogue topology "
-    "reading verify supports path flight sim rehearsal plot mission tables atlas",
+    "reading verify supports path flight laid sim rehearsal plot mission tables atlas",
     "__main__": "cli",
     "benchmarks": "formulations errors arrays files document diagram planar search cable catalogue "
-    "topology reading verify supports path flight sim rehearsal plot mission tables atlas cli",
+    "topology reading verify supports path flight laid sim rehearsal plot mission tables atlas cli",
 }
 """What each package, or module right in `knotopt`, may import of the others; lower ones first."""
 
