@@ -30,6 +30,7 @@ ALLOWED: Mapping[str, str] = {
     "planar": "errors arrays diagram",
     "cable": "errors arrays diagram planar",
     "catalogue": "errors files diagram",
+    "identify": "diagram planar cable catalogue",
     "topology": "errors arrays planar cable",
     "reading": "errors arrays diagram planar cable catalogue topology",
     # The judges.
