@@ -22,6 +22,7 @@ from benchmarks import (  # noqa: F401 -- they register themselves
     certificates,
     formulations_catalogue,
     formulations_growth,
+    grids_catalogue,
     lcf_catalogue,
     lcf_growth,
     paths_catalogue,

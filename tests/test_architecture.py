@@ -53,8 +53,8 @@ ALLOWED: Mapping[str, str] = {
     "cli": "formulations knotopt errors files document diagram cable catalogue topology "
     "reading verify supports path flight sim rehearsal plot mission tables atlas",
     "__main__": "cli",
-    "benchmarks": "formulations errors arrays files document diagram cable catalogue topology "
-    "reading verify supports path flight sim rehearsal plot mission tables atlas cli",
+    "benchmarks": "formulations errors arrays files document diagram planar cable catalogue "
+    "topology reading verify supports path flight sim rehearsal plot mission tables atlas cli",
 }
 """What each package, or module right in `knotopt`, may import of the others; lower ones first."""
 

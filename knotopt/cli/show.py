@@ -127,14 +127,10 @@ def _facts(content: dict[str, Any], fewest: int) -> list[tuple[str, Any]]:
         + (" (twist)" if each["is_twist"] else "")
         for each in content["staircases"]
     ]
-    notes = tuple(content["notes"])
+    form, notes = content["form"], tuple(content["notes"])
     return [
         ("knot", f"{content['knot']} ({content['source']})"),
-        *(
-            []
-            if content["form"] == "name"
-            else [("read as", reading_in_words(content["form"], notes))]
-        ),
+        *([] if form == "name" else [("read as", reading_in_words(form, notes))]),
         ("grid size", f"{content['grid_size']} (smallest found: {content['smallest_grid_found']})"),
         ("cut", f"{content['cut']} of {' '.join(content['crossing_free_cuts'])}"),
         ("turning points", content["turning_points"]),

@@ -1,9 +1,8 @@
 """The forms in which a knot may be given, in the order in which they are tried.
 
 A form's reader takes the content and what is asked, and answers with a `Reading`, with None where
-the content is of another form, or with an error that says where a code of this form is wrong. The
-first form that can be read is taken; if there is none, the first error is the answer. So of two
-forms that look alike, such as a braid word and a Gauss code, that one is taken which is a knot.
+the content is of another form, or with an error that says where it is wrong as one of this form.
+The first answer counts: a matrix with a wrong entry is not read as anything else.
 """
 
 from __future__ import annotations

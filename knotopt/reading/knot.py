@@ -94,22 +94,14 @@ def _read(content: Content, asked: Asked, only: Form | None) -> tuple[Reading, s
     if isinstance(content.value, dict):
         content, keyed = _under_key(content)
         forms = forms if only is not None or keyed is None else [keyed]
-    first: KnotoptError | None = None
     for form in forms:
-        try:
-            found = form.read(content, asked)
-        except KnotoptError as error:
-            if form.name == "name":  # no code is taken for what has the form of a name
-                raise
-            first = first or error
-        else:
-            if found is not None:
-                return found, form.title
-    if first is not None:
-        raise first
-    if len(forms) == 1:
-        where = f'under the key "{content.key}" there' if content.key else "this"
-        raise FileFormatError(f"{where} is no {forms[0].title}")
+        found = form.read(content, asked)
+        if found is not None:
+            return found, form.title
+    if content.key and len(forms) == 1:
+        raise FileFormatError(f'the key "{content.key}" holds no {forms[0].title}')
+    if only is not None:
+        raise FileFormatError(f"this cannot be read as {only.title}")
     raise miss(content)
 
 

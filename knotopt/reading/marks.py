@@ -81,8 +81,7 @@ def are_pairs(rows: list[list[Any]]) -> str:
     entries = [entry for row in rows for entry in row if isinstance(entry, int)]
     if not entries or len(entries) * 10 < 16 * len(rows) or -1 in entries:
         return ""
-    size = max(entries) - min(*entries, 1) + 1
-    return "marks" if len(rows) * 4 >= 5 * size else "arc"
+    return "marks" if len(rows) * 4 >= 5 * len({*entries}) else "arc"
 
 
 def _oriented(diagram: GridDiagram) -> GridDiagram:

@@ -9,6 +9,7 @@ from knotopt.reading.content import Content
 from knotopt.reading.near_names import unknown
 
 _LONGEST_NAME = 60
+_NO_FORM = "numbers, but no matrix, marks, arc presentation, PD code or curve"
 _OPENING, _CLOSING = "[({", "])}"
 
 
@@ -17,23 +18,26 @@ def miss(content: Content) -> KnotoptError:
     text = content.text.strip()
     if content.given is None and not text:
         return FileFormatError("there is nothing in it")
-    if content.value is not None:
-        numbers, rows = content.numbers, content.rows
-        if numbers is not None and len(numbers) > 1:
-            return FileFormatError(
-                f"a list of {len(numbers)} numbers, but no DT code (even numbers, 2 to 2n), no "
-                "Gauss code (each crossing twice) and no braid word whose closure is a knot"
-            )
-        if rows is not None:
-            return FileFormatError(
-                f"{len(rows)} rows of {len(rows[0])}, but no matrix, marks, arc presentation, PD "
-                "code or curve"
-            )
-        if not isinstance(content.value, str | int) and re.search(r"[\[({]", text):
-            return FileFormatError("lists, but not those of a grid, a code or a curve")
-    if "\n" not in text and len(text) <= _LONGEST_NAME and not re.search(r"[\[{]", text):
+    numbers, no_knot = content.numbers, f"no knot in {_shown(text)}"
+    if numbers is not None and len(numbers) > 1:
+        return FileFormatError(
+            f"a list of {len(numbers)} numbers, but no DT code (even numbers), no Gauss code (each "
+            "crossing twice) and no braid word whose closure is a knot"
+        )
+    is_short = "\n" not in text and len(text) <= _LONGEST_NAME
+    if content.given is None and is_short and not re.search(r"[\[{]", text):
         return unknown(text)
-    return FileFormatError(_bracket(text) or _line(content) or f"no knot: {_shown(text)}")
+    return FileFormatError(_of_lists(content) or _bracket(text) or _line(content) or no_knot)
+
+
+def _of_lists(content: Content) -> str | None:
+    """Of a value in brackets; None for other text."""
+    rows = content.rows
+    if content.value is None or (content.given is None and not re.search(r"[\[{(]", content.text)):
+        return None
+    if rows is not None:
+        return f"{len(rows)} rows of {len(rows[0])} {_NO_FORM}"
+    return "lists, but not those of a grid, a code or a curve"
 
 
 def _bracket(text: str) -> str | None:
@@ -67,11 +71,11 @@ def _line(content: Content) -> str | None:
         if not all(isinstance(cell, int) for cell in row)
     ]
     if not wrong:
-        return f"{len(table.rows)} rows of numbers, but no matrix, marks, code or curve"
-    if 2 * len(wrong) > len(table.rows):
+        return f"{len(table.rows)} rows of {len(table.rows[0])} {_NO_FORM}"
+    if 2 * len(wrong) > len(table.rows) and not table.header:
         return None
     shown = content.text.splitlines()[wrong[0] - 1].strip()
-    return f"line {wrong[0]} is {_shown(shown)}, expected whole numbers as in other lines"
+    return f"line {wrong[0]} is {_shown(shown)}, expected whole numbers"
 
 
 def _shown(text: str) -> str:

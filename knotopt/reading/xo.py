@@ -62,10 +62,12 @@ def _by_column(content: Content) -> tuple[GridDiagram, str] | None:
 def _by_row(content: Content) -> tuple[GridDiagram, str] | None:
     """Two permutations without names: columns of the marks by row."""
     rows = content.rows
-    if rows is None or len(rows) != 2 or len(rows[0]) != len(rows[1]) or len(rows[0]) < 2:
+    if rows is None or content.header or len(rows) != 2 or len(rows[0]) != len(rows[1]):
         return None
     size = len(rows[0])
     if not all(isinstance(entry, int) and 0 <= entry <= size for row in rows for entry in row):
+        return None
+    if min(len({*row}) for row in rows) * 4 < max(3 * size, 8):  # far from permutations
         return None
     if size == 2 and rows[0] != rows[1][::-1]:
         return None
@@ -134,15 +136,17 @@ def _lines(content: Content) -> list[list[str]] | None:
         rows = value
     elif rows is not None and all(len(row) == 1 and isinstance(row[0], str) for row in rows):
         rows = [row[0] for row in rows]
-    if rows is None or len(rows) < 2:
+    if rows is None or content.header or len(rows) < 2:
         return None
     lines = [[_mark(cell) for cell in row] for row in rows]
-    marks = sum(mark in {"X", "O"} for line in lines for mark in line)
+    if any(mark is None for line in lines for mark in line):
+        return None
     words = any(isinstance(cell, str) and cell.strip().isalpha() for row in rows for cell in row)
     numbers = any(isinstance(cell, int) and cell > 0 for row in rows for cell in row)
-    if any(mark is None for line in lines for mark in line) or marks < len(lines):
+    fits = sum({line.count("X"), line.count("O")} == {1} for line in lines)
+    if words == numbers or 4 * fits < 2 * len(lines):
         return None
-    if words and numbers:
+    if numbers and (4 * fits < 3 * len(lines) or not 2 < len(lines[0]) <= len(lines) + 1):
         return None
     return [[mark or "" for mark in line] for line in lines]
 
