@@ -82,7 +82,8 @@ def _are_words(rows: list[list[Any]], named: bool) -> bool:
     entries = [entry for row in rows for entry in row]
     if not all(isinstance(entry, int) and entry for entry in entries):
         return False
-    return named or (min(entries) < 0 and min(map(len, rows)) > 2 and len({*map(len, rows)}) > 1)
+    lengths = {*map(len, rows)}
+    return named or (min(lengths) > 2 and len(lengths) > 1 and min(entries) < 0)
 
 
 def _in_letters(text: str, named: bool) -> list[int] | None:

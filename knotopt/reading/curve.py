@@ -135,7 +135,7 @@ def _rows(text: str) -> Rows | None:
         return None
     rows = []
     for number, words in lines:
-        picked = [words[k] for k in columns] if len(words) == width else []
+        picked = [words[k] for k in columns] if len(words) == width > max(columns) else []
         if len(picked) != 3 or not all(map(_NUMBER.fullmatch, picked)):
             raise CurveError(f"line {number} is {' '.join(words)[:60]!r}, expected a point x, y, z")
         rows.append((number, [float(word) for word in picked]))
