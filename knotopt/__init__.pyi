@@ -52,6 +52,7 @@ from .supports.search import best_diagram as best_diagram
 from .supports.search import best_supports as best_supports
 from .supports.search import supports_by_cut as supports_by_cut
 from .tables.comparison import compare as compare
+from .tables.comparison import comparison_table as comparison_table
 from .topology.cable_state import cable_state as cable_state
 from .topology.extract import extract_state as extract_state
 from .topology.plan import plan_graph as plan_graph

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from knotopt.cli import options
+from knotopt.cli.completion import among
 from knotopt.cli.fly_printing import show_mission
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import status_line, track
@@ -37,6 +38,7 @@ def fly(
             "Of the smallest set: span (the taut cable itself, which is what is flown) or opening "
             "(polygons through the grid's crossings).",
             metavar="NAME",
+            autocompletion=among(("span", "opening")),
         ),
     ] = None,
     r: Annotated[float | None, options.openness_option(FLOWN.openness)] = None,
@@ -57,7 +59,11 @@ def fly(
         ),
     ] = None,
     schedule: Annotated[
-        str, typer.Option(help="optimised (the fastest), or fixed: at one pace, as in the paper.")
+        str,
+        typer.Option(
+            autocompletion=among(SCHEDULES),
+            help="optimised (the fastest), or fixed: at one pace, as in the paper.",
+        ),
     ] = FlightRequest.schedule,
     step: Annotated[float, typer.Option(help="Metres per grid step.")] = ROOM.step,
     altitude: Annotated[float, typer.Option(help="Of hovering robots [m].")] = ROOM.altitude,
@@ -132,7 +138,8 @@ def fly(
     if supports != "milp" and (r is not None or formulation is not None):
         options.refuse("--formulation" if r is None else "--r", "goes with --supports milp")
     requirements = Requirements(
-        formulation or FLOWN.formulation, FLOWN.openness if r is None else r
+        FLOWN.formulation if formulation is None else formulation,
+        FLOWN.openness if r is None else r,
     )
     world = World(step, altitude, floor, ceiling, ROOM.drone_height, ROOM.downwash)
     limits = FlightLimits(
@@ -141,6 +148,8 @@ def fly(
     disturbed = options.given(noise=noise, wind=wind, gust=gust, seed=seed, runs=runs)
     for name in () if sim else disturbed | options.given(tighten=tighten):
         options.refuse(f"--{name}", "goes with --sim")
+    if tighten is not None and not 0 < tighten < math.inf:
+        options.refuse("--tighten", f"is a distance in metres, not {tighten:g}")
     if wind is not None:
         disturbed["wind"] = _wind(wind)
     disturbances = DisturbedFlights(**disturbed).disturbances()

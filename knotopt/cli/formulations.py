@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from knotopt.cli.completion import among
 from knotopt.supports.registry import FORMULATIONS
 from knotopt.supports.threading import Threading
 
@@ -13,6 +14,7 @@ FormulationOption = Annotated[
     str,
     typer.Option(
         metavar="NAME",
+        autocompletion=among(FORMULATIONS),
         help=" or ".join(f"{each.name} ({each.words})" for each in FORMULATIONS.values()) + ".",
     ),
 ]
@@ -20,6 +22,7 @@ ThreadingOption = Annotated[
     str | None,
     typer.Option(
         metavar="NAME",
+        autocompletion=among(Threading),
         help=f"What threads a region: {' or '.join(Threading)}; by default "
         + ", ".join(f"{each.threading[0]} for {each.name}" for each in FORMULATIONS.values())
         + ".",

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from knotopt.cli import options
+from knotopt.cli.completion import among
 from knotopt.cli.formulations import FormulationOption
 from knotopt.cli.printing import print_facts, print_json, print_note, print_table, print_written
 from knotopt.cli.reading import read
@@ -29,7 +30,9 @@ def path(
     method: Annotated[
         str,
         typer.Option(
-            metavar="NAME", help="nlp (the program), relaxation (the paper's springs), or both."
+            metavar="NAME",
+            autocompletion=among(METHODS),
+            help="nlp (the program), relaxation (the paper's springs), or both.",
         ),
     ] = "nlp",
     cut: options.SupportsCutOption = "best",
@@ -109,13 +112,15 @@ def path(
     )
     if world is not None:
         asked = world.requirements(asked)
+    of_the_set = Requirements(formulation, r)
+    limits = options.solver_limits(time_limit)
     named = read(knot)
-    chosen = choose_supports(named.diagram, supports, cut, Requirements(formulation, r))
+    chosen = choose_supports(named.diagram, supports, cut, of_the_set)
     results: list[PathResult] = []
     if method != "nlp":
         results.append(relaxed_path(chosen.cable, chosen.supports, asked))
     if method != "relaxation":
-        results.append(optimise_path(chosen.cable, chosen.supports, asked, seconds=time_limit))
+        results.append(optimise_path(chosen.cable, chosen.supports, asked, seconds=limits.seconds))
     title = f"{named.name}, cut {chosen.cable.cut}: {chosen.robots} robots ({supports})"
     written = _write(results, title, world, plot, out)
     if as_json:

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from knotopt.cli.formats import FormOption, print_form
+from knotopt.cli.completion import CUTS, among
+from knotopt.cli.formats import WrittenOption, print_form
 from knotopt.cli.options import JsonOption, KnotArgument, PlotOption
 from knotopt.cli.printing import print_facts, print_json, print_written
 from knotopt.cli.reading import read, reading_in_words
@@ -25,10 +26,11 @@ def show(
         str,
         typer.Option(
             metavar="CUT",
+            autocompletion=among(CUTS),
             help="Where the knot is opened: L+ L- R+ R- B+ B- T+ T-, or col3+, row5-.",
         ),
     ] = "L+",
-    form: FormOption = None,
+    written: WrittenOption = None,
     plot: PlotOption = None,
     as_json: JsonOption = False,
 ) -> None:
@@ -36,8 +38,8 @@ def show(
 
     Example: knotopt show 8_19 --plot 8_19.png
     """
-    if form is not None:
-        print_form(knot, form, {"--plot": plot, "--json": as_json})
+    if written is not None:
+        print_form(knot, written, {"--plot": plot, "--json": as_json})
         return
     from knotopt.cable.alexander import alexander_polynomial
     from knotopt.cable.cable import Cable

@@ -60,6 +60,7 @@ def solve(
         typer.Option(
             help="Also search so many diagrams of the knot, by translations and commutations.",
             min=1,
+            max=1_000_000,
         ),
     ] = 1,
     separation: Annotated[
@@ -131,7 +132,6 @@ def solve(
     from knotopt.supports.minimal import all_minimal
     from knotopt.supports.search import supports_by_cut
 
-    named = read(knot)
     asked = Requirements(
         formulation,
         r,
@@ -150,6 +150,8 @@ def solve(
     _check_options(cut, diagrams, about_one_cut, numbers=bool(forbid or force))
     options.check_suffix(export, "programs are", FORMATS)
     flights = FlightOptions(noise, trials, physics_budget, max_cut, out)
+    (flights.tests if verify_physics else flights.check_unused)()
+    named = read(knot)
     if verify_physics:
         if cut == "all":
             options.refuse("--cut", "with --verify-physics, give --cut best or a cut's name")
@@ -160,7 +162,6 @@ def solve(
         written = _write(named.name, flown.result, plot if tied else None, export)
         show_flown(named, flown, written, as_json=as_json)
         raise typer.Exit(0 if tied else 1)
-    flights.check_unused()
     if cut == "all":
         cuts = crossing_free_cuts(named.diagram)
         found = supports_by_cut(named.diagram, asked, cuts=cuts, solver=solver, limits=limits)

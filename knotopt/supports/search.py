@@ -19,6 +19,7 @@ from knotopt.cable.cut import Cut, crossing_free_cuts
 from knotopt.diagram.grid import GridDiagram
 from knotopt.diagram.moves import commute_columns, commute_rows, translate
 from knotopt.errors import MoveError, RequirementError
+from knotopt.showing import ShownShort, plural
 from knotopt.supports.minimal import MinimalSupports, canonical_supports, minimal_supports
 from knotopt.supports.requirements import Requirements
 
@@ -46,8 +47,8 @@ class CutOutcome:
     status: Status
 
 
-@dataclass(frozen=True)
-class CutSearch:
+@dataclass(frozen=True, repr=False)
+class CutSearch(ShownShort):
     """The best cut of a diagram.
 
     Attributes
@@ -63,6 +64,11 @@ class CutSearch:
     best: MinimalSupports
     outcomes: tuple[CutOutcome, ...]
     interrupted: bool = False
+
+    @property
+    def in_words(self) -> str:
+        """The best set, and over how many cuts."""
+        return f"best of {plural(len(self.outcomes), 'cut')}: {self.best.in_words}"
 
     @property
     def status(self) -> Status:

@@ -224,7 +224,7 @@ def test_doctor(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
     found = cli.json("doctor")
     assert [solver["works"] for solver in found["solvers"]] == [True] * 5
     assert found["versions"]["numpy"][0].isdigit()
-    extras = {"viz", "knotinfo", "scip", "sat", "sim", "atlas", "cluster"}
+    extras = {"viz", "knotinfo", "scip", "sat", "sim", "atlas", "cluster", "pandas"}
     assert set(found["extras"]) == extras
     broken = [probe.ProbeResult("CP-SAT (ortools)", False, "wrong optimum 2")]
     asked: list[str] = []
