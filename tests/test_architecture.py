@@ -33,7 +33,7 @@ ALLOWED: Mapping[str, str] = {
     "planar": "errors arrays diagram",
     "cable": "showing errors arrays diagram planar",
     "catalogue": "errors files diagram frames",
-    "identify": "diagram planar cable catalogue",
+    "identify": "errors diagram planar cable catalogue",
     "topology": "showing errors arrays planar cable",
     "reading": "showing errors arrays diagram planar cable catalogue topology",
     # The judges.
@@ -54,8 +54,8 @@ ALLOWED: Mapping[str, str] = {
     "atlas": "formulations knotopt errors arrays files frames document diagram cable catalogue "
     "reading verify supports flight sim plot tables",
     "api": "formulations errors diagram cable reading supports path flight mission",
-    "cli": "formulations knotopt errors files document diagram cable catalogue topology "
-    "reading verify supports path flight sim rehearsal plot mission tables atlas",
+    "cli": "formulations knotopt errors files document diagram planar cable catalogue identify "
+    "topology reading verify supports path flight sim rehearsal plot mission tables atlas",
     "__main__": "cli",
     "benchmarks": "formulations errors arrays files document diagram planar cable catalogue "
     "topology reading verify supports path flight sim rehearsal plot mission tables atlas cli",

@@ -11,6 +11,7 @@ from __future__ import annotations
 import importlib.util
 from typing import Any
 
+from knotopt.errors import require_extra
 from knotopt.planar.planar_diagram import PlanarDiagram
 
 TRIES = 5  # triangulations of each complement
@@ -21,7 +22,12 @@ def is_installed() -> bool:
     return importlib.util.find_spec("snappy") is not None
 
 
-def have_same_complement(planar: PlanarDiagram, other: PlanarDiagram) -> bool:
+def require() -> None:
+    """Raise MissingExtraError if it is not."""
+    require_extra("snappy", "snappy", "a proof by isometry of complements")
+
+
+def are_isometric(planar: PlanarDiagram, other: PlanarDiagram) -> bool:
     """Whether SnapPy finds an isometry of the complements that keeps the orientation.
 
     Examples
@@ -29,7 +35,7 @@ def have_same_complement(planar: PlanarDiagram, other: PlanarDiagram) -> bool:
     >>> from knotopt.catalogue.knots import shipped_knots
     >>> from knotopt.planar.from_grid import planar_diagram
     >>> knot = planar_diagram(shipped_knots()["9_42"].diagram)
-    >>> have_same_complement(knot, knot), have_same_complement(knot, knot.mirrored)
+    >>> are_isometric(knot, knot), are_isometric(knot, knot.mirrored)
     (True, False)
     """
     first, second = _complement(planar), _complement(other)

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import product
+from itertools import islice, product
 
 from knotopt.diagram.grid import GridDiagram
 from knotopt.diagram.simplify import simplify
 from knotopt.diagram.sums import split_sum
+from knotopt.identify import complements
 from knotopt.identify.colourings import colouring_polynomial
-from knotopt.identify.finite_groups import alternating_group, psl2
+from knotopt.identify.finite_groups import ConjugacyClass, alternating_group, psl2
 from knotopt.identify.invariants import Invariants, invariants
 from knotopt.identify.jones import jones_polynomial
 from knotopt.identify.summands import KnotSum, crossings_in_table, knots_with
@@ -19,14 +20,13 @@ from knotopt.planar.from_grid import planar_diagram
 from knotopt.planar.planar_diagram import PlanarDiagram
 from knotopt.planar.sums import summands
 
-COLOURINGS = {
-    "PSL(2,5)": partial(psl2, 5),
-    "PSL(2,7)": partial(psl2, 7),
-    "PSL(2,11)": partial(psl2, 11),
-    "the alternating group of degree 7": partial(alternating_group, 7),
-}
-"""Groups in whose elements strands are coloured; those after the first two only to decide between
-candidates. The last tells mutants apart, which the others hardly can."""
+Groups = Mapping[str, Callable[[], Sequence[ConjugacyClass]]]
+
+ALWAYS: Groups = {"PSL(2,5)": partial(psl2, 5), "PSL(2,7)": partial(psl2, 7)}
+"""Groups in whose elements strands are always coloured."""
+IF_NEEDED: Groups = {"PSL(2,11)": partial(psl2, 11), "A7": partial(alternating_group, 7)}
+"""Those that only decide between candidates; the alternating group also between mutants."""
+MAX_SPLIT = 40  # size of a grid that is walked about to find a connected sum
 MOST_COMBINATIONS = 100  # of candidates for the summands
 
 
@@ -44,6 +44,12 @@ class Identified:
         What the candidates agree with it in: "Alexander polynomial", ...
     table_crossings : int
         The crossing number up to which all prime knots were compared.
+    proven : bool
+        Whether it is the knot named for certain: if each summand's diagram has no more crossings
+        than knots of the tables, which are complete; by isometries of complements; or by the grid
+        of size 2, the unknot's. Else a knot that is in no table may have the same invariants.
+    is_amphicheiral : bool
+        Whether each candidate is its own mirror image.
     invariants : Invariants
         Of the whole knot.
     grid : GridDiagram
@@ -55,6 +61,8 @@ class Identified:
     candidates: tuple[str, ...]
     by: tuple[str, ...]
     table_crossings: int
+    proven: bool
+    is_amphicheiral: bool
     invariants: Invariants
     grid: GridDiagram
     crossings: int
@@ -65,12 +73,15 @@ class Identified:
         return self.candidates[0] if len(self.candidates) == 1 else None
 
 
-def identify(diagram: GridDiagram, *, seed: int = 0) -> Identified:
+def identify(diagram: GridDiagram, *, prove: bool = False, seed: int = 0) -> Identified:
     """Name the knot of a grid diagram.
 
     Parameters
     ----------
     diagram : GridDiagram
+    prove : bool
+        Have SnapPy compare complements even if one candidate is left; of several, it compares them
+        wherever it is installed.
     seed : int
         Of the simplification.
 
@@ -78,8 +89,12 @@ def identify(diagram: GridDiagram, *, seed: int = 0) -> Identified:
     -------
     Identified
         A knot is compared with all prime knots of the tables (up to 13 crossings with the
-        `knotinfo` extra, 10 without), their mirror images and their connected sums. A grid of size
-        2 is the unknot's, which needs no invariants; all else is by invariants.
+        `knotinfo` extra, 10 without), their mirror images and their connected sums.
+
+    Raises
+    ------
+    MissingExtraError
+        A proof is asked for without the `snappy` extra.
 
     Examples
     --------
@@ -94,21 +109,25 @@ def identify(diagram: GridDiagram, *, seed: int = 0) -> Identified:
     -----
     Simplification takes most of the time, about 100 ms for a grid of size 15.
     """
+    if prove:
+        complements.require()
     grid = simplify(diagram, seed=seed)
     planar = planar_diagram(grid)
     if grid.size == 2:
-        unknot = KnotSum(()).name
-        by = ("grid of size 2",)
-        return Identified((unknot,), by, crossings_in_table(), invariants(planar), grid, 0)
-    parts = [_compare(part) for part in summands(planar)]
-    if not all(part.knots for part in parts):  # one more try: it may be a sum in disguise
-        split = split_sum(grid, seed=seed)
-        if len(split) > 1:
-            parts = [_compare(planar_diagram(part)) for part in split]
+        parts = [_Compared([KnotSum(())], ("grid of size 2",), True, 0)]
+    else:
+        parts = [_compare(part, prove=prove) for part in summands(planar)]
+        if not all(part.knots for part in parts) and grid.size <= MAX_SPLIT:
+            split = split_sum(grid, seed=seed)
+            if len(split) > 1:  # a sum in disguise
+                parts = [_compare(planar_diagram(part), prove=prove) for part in split]
+    knots = _sums([part.knots for part in parts])
     return Identified(
-        _names([part.knots for part in parts]),
+        tuple(knot.name for knot in knots),
         tuple(dict.fromkeys(name for part in parts for name in part.by)),
         crossings_in_table(),
+        all(part.proven for part in parts),
+        bool(knots) and all(knot.is_amphicheiral for knot in knots),
         invariants(planar),
         grid,
         sum(part.crossings for part in parts),
@@ -121,26 +140,43 @@ class _Compared:
 
     knots: list[KnotSum]
     by: tuple[str, ...]
+    proven: bool
     crossings: int
 
 
-def _compare(planar: PlanarDiagram) -> _Compared:
+def _compare(planar: PlanarDiagram, *, prove: bool) -> _Compared:
     """The knots of the tables whose invariants are those of the diagram's."""
     own = invariants(planar)
-    if own.alexander is None:
-        return _Compared([], (), len(planar.crossings))
+    if own.alexander is None or own.signature is None:
+        return _Compared([], (), False, len(planar.crossings))
     left = knots_with(own.alexander, own.signature)
     by = ["Alexander polynomial", "signature"]
     if own.jones is not None:
         left = [knot for knot in left if jones_polynomial(knot.planar) == own.jones]
         by.append("Jones polynomial")
-    for number, (group, classes) in enumerate(COLOURINGS.items()):
-        if not left or (number > 1 and len(left) == 1):
-            break
+    if left:
+        left = _coloured_alike(left, planar, ALWAYS)
+        by.append("colouring polynomials")
+    same = []
+    if (prove and left) or (len(left) > 1 and complements.is_installed()):
+        same = [knot for knot in left if complements.are_isometric(planar, knot.planar)]
+    if same:
+        left = same
+        by.append("isometry of complements")
+    for group, classes in IF_NEEDED.items():
+        if len(left) > 1:
+            left = _coloured_alike(left, planar, {group: classes})
+    crossings = len(planar.crossings)
+    complete = len(left) == 1 and crossings <= crossings_in_table()
+    return _Compared(left, tuple(by), bool(same) or complete, crossings)
+
+
+def _coloured_alike(knots: list[KnotSum], planar: PlanarDiagram, groups: Groups) -> list[KnotSum]:
+    """The knots with the same colouring polynomials."""
+    for classes in groups.values():
         for colours in classes():
-            left = _agreeing(left, planar, partial(colouring_polynomial, colours=colours))
-        by.append(f"colourings by {group}")
-    return _Compared(left, tuple(by), len(planar.crossings))
+            knots = _agreeing(knots, planar, partial(colouring_polynomial, colours=colours))
+    return knots
 
 
 def _agreeing(
@@ -153,11 +189,7 @@ def _agreeing(
     return [knot for knot in knots if invariant(knot.planar) in (None, value)]
 
 
-def _names(parts: Sequence[list[KnotSum]]) -> tuple[str, ...]:
-    """Names of the sums of one candidate of each part."""
-    found: dict[str, None] = {}
-    for chosen in product(*parts):
-        found[sum(chosen, KnotSum(())).name] = None
-        if len(found) == MOST_COMBINATIONS:
-            break
-    return tuple(found)
+def _sums(parts: Sequence[list[KnotSum]]) -> list[KnotSum]:
+    """The sums of one candidate of each part."""
+    sums = (sum(chosen, KnotSum(())) for chosen in product(*parts))
+    return [*dict.fromkeys(islice(sums, MOST_COMBINATIONS))]

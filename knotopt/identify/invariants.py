@@ -11,6 +11,8 @@ from knotopt.planar.signature import signature
 
 MAX_CROSSINGS = 120
 """Crossings of a diagram whose Alexander polynomial is computed: it takes about a second."""
+MAX_SIGNATURE_CROSSINGS = 1000
+"""Crossings of one whose signature is computed: as long."""
 
 
 @dataclass(frozen=True)
@@ -19,8 +21,9 @@ class Invariants:
 
     Attributes
     ----------
-    signature : int
-        In KnotInfo's sign: positive knots have a negative one.
+    signature : int or None
+        In KnotInfo's sign: positive knots have a negative one. None for a diagram of more than
+        `MAX_SIGNATURE_CROSSINGS` crossings.
     alexander : tuple of int or None
         Alexander polynomial, constant term first, leading coefficient positive; None for a diagram
         of more than `MAX_CROSSINGS` crossings.
@@ -28,7 +31,7 @@ class Invariants:
         Jones polynomial in t; None for a diagram that is too wide.
     """
 
-    signature: int
+    signature: int | None
     alexander: tuple[int, ...] | None
     jones: jones.Polynomial | None
 
@@ -46,7 +49,7 @@ def invariants(planar: PlanarDiagram) -> Invariants:
     >>> invariants(PlanarDiagram(((0, 4, 1, 3), (2, 0, 3, 5), (4, 2, 5, 1))))
     Invariants(signature=-2, alexander=(1, -1, 1), jones={1: 1, 3: 1, 4: -1})
     """
-    return Invariants(signature(planar), alexander(planar), jones.jones_polynomial(planar))
+    return Invariants(signature_or_none(planar), alexander(planar), jones.jones_polynomial(planar))
 
 
 def alexander(planar: PlanarDiagram) -> tuple[int, ...] | None:
@@ -55,3 +58,8 @@ def alexander(planar: PlanarDiagram) -> tuple[int, ...] | None:
         return None
     visits = [crossing for crossing, _ in planar.visits]
     return alexander_from_gauss(visits, [over for _, over in planar.visits], planar.signs)
+
+
+def signature_or_none(planar: PlanarDiagram) -> int | None:
+    """Signature; None for a diagram of more than `MAX_SIGNATURE_CROSSINGS` crossings."""
+    return signature(planar) if len(planar.crossings) <= MAX_SIGNATURE_CROSSINGS else None

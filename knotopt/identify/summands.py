@@ -4,7 +4,7 @@ polynomial.
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache, cached_property
@@ -69,6 +69,15 @@ class KnotSum:
     def crossing_number(self) -> int:
         """The summands' crossing numbers, added up."""
         return sum(each.knot.crossing_number for each in self.summands)
+
+    @property
+    def is_amphicheiral(self) -> bool:
+        """Whether it is its own mirror image, orientations aside."""
+        hands = Counter[str]()  # of each knot, as it is less mirrored
+        for each in self.summands:
+            if not each.knot.is_amphicheiral:
+                hands[each.knot.name] += -1 if each.mirrored else 1
+        return not any(hands.values())
 
     @cached_property
     def planar(self) -> PlanarDiagram:

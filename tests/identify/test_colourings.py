@@ -68,7 +68,7 @@ def test_classes(name: str) -> None:
 
 
 def test_fox_s_colourings_by_the_dihedral_classes() -> None:
-    """Two involutions generate a dihedral group, so knots with two bridges have Fox's colourings."""
+    """Two involutions generate a dihedral group: knots with two bridges have Fox's colourings."""
     (involutions,) = (each for each in psl2(5) if len(each.conjugates) == 15)
     counts = {
         name: sum(colouring_polynomial(planar_diagram(knot.diagram), involutions) or ())
