@@ -151,8 +151,8 @@ def _facts(content: dict[str, Any], fewest: int) -> list[tuple[str, Any]]:
         ("Alexander", unknown if alexander is None else format_polynomial(tuple(alexander))),
         ("signature", "not computed" if content["signature"] is None else content["signature"]),
         ("determinant", unknown if alexander is None else content["determinant"]),
-        ("Gauss code", " ".join(map(str, content["gauss_code"]))),
-        ("PD code", " ".join(str(tuple(crossing)) for crossing in content["pd_code"])),
-        ("DT code", " ".join(map(str, content["dt_code"]))),
+        ("Gauss code", " ".join(map(str, content["gauss_code"])) or "none"),
+        ("PD code", " ".join(str(tuple(crossing)) for crossing in content["pd_code"]) or "none"),
+        ("DT code", " ".join(map(str, content["dt_code"])) or "none"),
         ("staircases", "; ".join(staircases) or "none of 3 crossings or more"),
     ]
