@@ -142,11 +142,7 @@ def _facts(content: dict[str, Any], fewest: int) -> list[tuple[str, Any]]:
     form, notes = content["form"], tuple(content["notes"])
     return [
         ("knot", f"{content['knot']} ({content['source']})"),
-<<<<<<< HEAD
         *([("read as", reading_in_words(form, notes))] if notes or form != "name" else []),
-=======
-        *([] if form == "name" else [("read as", reading_in_words(form, notes))]),
->>>>>>> grids
         ("grid size", f"{content['grid_size']} (smallest found: {content['smallest_grid_found']})"),
         ("cut", f"{content['cut']} of {' '.join(content['crossing_free_cuts'])}"),
         ("turning points", content["turning_points"]),
