@@ -36,6 +36,7 @@ from .path.taut import taut_string as taut_string
 from .path.world import World as World
 from .planar.from_grid import planar_diagram as planar_diagram
 from .planar.planar_diagram import PlanarDiagram as PlanarDiagram
+from .reading.writing import write_knot as write_knot
 from .rehearsal.flown_set import FlownSet as FlownSet
 from .rehearsal.rehearse import rehearse_flight as rehearse_flight
 from .rehearsal.tighten import tighten_flight as tighten_flight
