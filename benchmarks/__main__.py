@@ -24,6 +24,7 @@ from benchmarks import (  # noqa: F401 -- they register themselves
     formulations_catalogue,
     formulations_growth,
     grids_catalogue,
+    heuristics_flown,
     lcf_catalogue,
     lcf_growth,
     loops,

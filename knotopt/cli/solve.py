@@ -12,7 +12,7 @@ from formulations.solution import Limits
 from knotopt.cli import options
 from knotopt.cli.formulations import FormulationOption, ThreadingOption, WithOption, with_loops
 from knotopt.cli.printing import print_json, print_written
-from knotopt.cli.progress import logged_bar, track
+from knotopt.cli.progress import logged_bar, status_line, track
 from knotopt.cli.reading import read
 from knotopt.cli.solve_diagrams import (
     BudgetOption,
@@ -95,6 +95,14 @@ def solve(
             help="At most so many robots; the smallest opening is maximised instead.", metavar="K"
         ),
     ] = None,
+    laid: Annotated[
+        bool,
+        typer.Option(
+            "--laid",
+            help="The cable laid in straight spans must be the knot, by invariants; sets that fail "
+            "are cut off.",
+        ),
+    ] = False,
     verify_physics: Annotated[
         bool,
         typer.Option(
@@ -134,9 +142,7 @@ def solve(
     Example: knotopt solve '7 Var2' --formulation span --plot supports.png
     """
     from formulations.export import FORMATS
-    from knotopt.cable.cut import crossing_free_cuts
     from knotopt.supports.minimal import all_minimal
-    from knotopt.supports.search import supports_by_cut
 
     asked = Requirements(
         formulation,
@@ -155,6 +161,9 @@ def solve(
         options.refuse("--count", "goes with --all")
     about_one_cut = {"--plot": plot, "--export": export, "--all": every}
     _check_options(cut, diagrams, about_one_cut, numbers=bool(forbid or force))
+    about_others = {"--all": every, "--diagrams": diagrams, "--max-robots": max_robots}
+    if laid:
+        _refuse_any(about_others | {"--cut all": cut == "all"}, "does not go with --laid")
     options.check_suffix(export, "programs are", FORMATS)
     check_out(budget, out, diagrams=diagrams, flown=verify_physics)
     flights = FlightOptions(noise, trials, physics_budget, max_cut, None if diagrams else out)
@@ -163,22 +172,21 @@ def solve(
     if verify_physics:
         if cut == "all":
             options.refuse("--cut", "with --verify-physics, give --cut best or a cut's name")
-        others = {"--all": every, "--diagrams": diagrams, "--max-robots": max_robots}
-        _refuse_any(others, "does not go with --verify-physics")
-        flown = fly_sets(named, asked, cut, flights, solver=solver, limits=limits)
+        _refuse_any(about_others, "does not go with --verify-physics")
+        flown = fly_sets(named, asked, cut, flights, laid=laid, solver=solver, limits=limits)
         tied = flown.status == "tied"
         written = _write(named.name, flown.result, plot if tied else None, export)
         show_flown(named, flown, written, as_json=as_json)
         raise typer.Exit(0 if tied else 1)
     if cut == "all":
-        cuts = crossing_free_cuts(named.diagram)
-        single = supports_by_cut(named.diagram, asked, cuts=cuts, solver=solver, limits=limits)
-        results = track(single, "cuts", len(cuts), lambda result: result.cable.cut)
-        show_cuts(named.name, list(results), as_json=as_json)
+        results = _each_cut(named.diagram, asked, solver, limits)
+        show_cuts(named.name, results, as_json=as_json)
         return
     solving: dict[str, Any] = {"solver": solver, "limits": limits}
     found = search_diagrams(named, asked, budget, out, **solving) if diagrams else None
-    search = found.best if found else _search(named.diagram, asked, cut, **solving)
+    search = (
+        found.best if found else (_laid if laid else _search)(named.diagram, asked, cut, **solving)
+    )
     result, sets = search.best, None
     if every and result.found:
         sets = all_minimal(result, count=count or MOST_SETS, solver=solver, limits=limits)
@@ -256,6 +264,34 @@ def _search(
             solver=solver,
             limits=limits,
             progress=lambda done: show(done, cuts[done - 1]),
+        )
+
+
+def _each_cut(
+    diagram: GridDiagram, asked: Requirements, solver: str, limits: Limits
+) -> list[MinimalSupports]:
+    """Every cut by itself; progress is shown."""
+    from knotopt.cable.cut import crossing_free_cuts
+    from knotopt.supports.search import supports_by_cut
+
+    cuts = crossing_free_cuts(diagram)
+    found = supports_by_cut(diagram, asked, cuts=cuts, solver=solver, limits=limits)
+    return list(track(found, "cuts", len(cuts), lambda result: result.cable.cut))
+
+
+def _laid(
+    diagram: GridDiagram, asked: Requirements, cut: str, *, solver: str, limits: Limits
+) -> CutSearch:
+    """The best cut, of sets that lay the knot."""
+    from knotopt.cable.cut import Cut
+    from knotopt.laid.smallest import LaidCuts
+    from knotopt.supports.by_size import sets_in_order
+
+    cuts = None if cut == "best" else [Cut.parse(cut, diagram.size)]
+    lacks = LaidCuts()
+    with status_line("solving"):
+        return next(
+            sets_in_order(diagram, asked, cuts=cuts, lacks=lacks, solver=solver, limits=limits)
         )
 
 

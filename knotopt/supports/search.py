@@ -57,11 +57,15 @@ class CutSearch(ShownShort):
         One for every cut, in order.
     interrupted : bool
         Whether Ctrl-C ended the search.
+    cut_off : int or None
+        Sets that failed a further test, each cut off with others by a row of its own. None where
+        there was no such test.
     """
 
     best: MinimalSupports
     outcomes: tuple[CutOutcome, ...]
     interrupted: bool = False
+    cut_off: int | None = None
 
     @property
     def in_words(self) -> str:
