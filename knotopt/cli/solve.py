@@ -161,7 +161,7 @@ def solve(
         _refuse_others(context, "goes with --formulation " + ", ".join(FORMULATIONS))
         limits = options.solver_limits(time_limit, gap, threads, seed)
         answer_knot(
-            read(knot),
+            knot,
             budget=budget,
             seed=seed,
             solver=solver,

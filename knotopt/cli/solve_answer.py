@@ -7,19 +7,19 @@ from typing import TYPE_CHECKING, Any
 
 from knotopt.cli.printing import print_facts, print_json, print_note, print_written
 from knotopt.cli.progress import status_line
+from knotopt.cli.reading import read
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from formulations.solution import Limits
     from knotopt.catalogue.flown import FlownTeam
-    from knotopt.reading.record import NamedDiagram
     from knotopt.sandwich.answer import Answer
     from knotopt.supports.minimal import MinimalSupports
 
 
 def answer_knot(
-    named: NamedDiagram,
+    knot: str,
     *,
     budget: str | None,
     seed: int,
@@ -33,6 +33,7 @@ def answer_knot(
     from knotopt.search.budget import Budget
 
     spent = BUDGET if budget is None else Budget.parse(budget)
+    named = read(knot)
     with status_line("searching diagrams"):
         found = answer(named, budget=spent, seed=seed, solver=solver, limits=limits)
     written = []
