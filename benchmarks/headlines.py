@@ -137,6 +137,13 @@ HEADLINES = (
             ("a cut [ms, worst]", "_ms", max),
         )
     ),
+    Headline("loops", "`loops`, a cut [robots, mean]", _of_cuts("loops"), mean),
+    Headline("loops", "sweep, a cut [ms, worst]", _of_cuts("sweep_ms"), max),
+    Headline(
+        "loops",
+        "CP-SAT's time over the sweep's with its rows [median]",
+        lambda row: [c["cp_sat_ms"] / c["rows_and_sweep_ms"] for c in row["cuts"].values()],
+    ),
     *(
         Headline(
             "formulations_growth",

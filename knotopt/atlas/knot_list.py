@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from knotopt.atlas.schema import KnotRow
@@ -56,8 +56,16 @@ def catalogue_rows(*, knotinfo: bool = False) -> tuple[KnotRow, ...]:
     )
 
 
-def folder_rows(folder: Path) -> tuple[KnotRow, ...]:
-    """The grids in a folder's `.json` and `.csv` files, by name.
+def folder_rows(
+    folder: Path, read: Callable[[Path], NamedDiagram] = read_knot
+) -> tuple[KnotRow, ...]:
+    """The knots in a folder's `.json` and `.csv` files, by name.
+
+    Parameters
+    ----------
+    folder : Path
+    read : callable
+        Reads one of the files.
 
     Raises
     ------
@@ -72,5 +80,5 @@ def folder_rows(folder: Path) -> tuple[KnotRow, ...]:
         raise FileFormatError(f"{folder} has no grids: no file ends in {' or '.join(SUFFIXES)}")
     # The folder's place is no part of a run: it may be copied, and gone on with there.
     return knot_rows(
-        NamedDiagram(path.name, read_knot(path).diagram, f"file {path.name}") for path in paths
+        NamedDiagram(path.name, read(path).diagram, f"file {path.name}") for path in paths
     )

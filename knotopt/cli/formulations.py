@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from knotopt.cli import options
+from knotopt.cli.completion import among
 from knotopt.supports.registry import FORMULATIONS
 from knotopt.supports.threading import Threading
 
@@ -14,6 +15,7 @@ FormulationOption = Annotated[
     str,
     typer.Option(
         metavar="NAME",
+        autocompletion=among(FORMULATIONS),
         help=" or ".join(f"{each.name} ({each.words})" for each in FORMULATIONS.values()) + ".",
     ),
 ]
@@ -37,6 +39,7 @@ ThreadingOption = Annotated[
     str | None,
     typer.Option(
         metavar="NAME",
+        autocompletion=among(Threading),
         help=f"What threads a region: {' or '.join(Threading)}; by default "
         + ", ".join(f"{each.threading[0]} for {each.name}" for each in FORMULATIONS.values())
         + ".",

@@ -8,6 +8,7 @@ import typer
 
 from knotopt.cli import options
 from knotopt.cli.printing import print_json, print_table, print_written
+from knotopt.cli.reading import read
 
 if TYPE_CHECKING:
     from knotopt.supports.lcf import LcfResult
@@ -31,10 +32,9 @@ def lcf(
     """
     from knotopt.cable.cut import Cut, crossing_free_cuts
     from knotopt.cli.drawing import print_supports
-    from knotopt.reading.knot import read_knot
     from knotopt.supports.lcf import best_cut, lcf_by_cut
 
-    named = read_knot(knot)
+    named = read(knot)
     if cut == "all":
         if plot is not None:
             options.refuse("--plot", "draws one cut: give --cut best or a cut's name")

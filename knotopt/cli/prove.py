@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from knotopt.cli import options
+from knotopt.cli.completion import among
 from knotopt.cli.formulations import FormulationOption, ThreadingOption, WithOption, with_loops
 from knotopt.cli.printing import print_json, print_note, print_table, print_written
 from knotopt.cli.progress import track
@@ -33,6 +34,7 @@ def prove(
         str | None,
         typer.Option(
             metavar="NAME",
+            autocompletion=among(("refutation", "count", "disjoint loops")),
             help="refutation (by CaDiCaL; the default), count (the checker examines every smaller "
             "set) or, of formulation loops and its default, 'disjoint loops'.",
         ),
@@ -52,12 +54,12 @@ def prove(
     from knotopt.supports.certificate import prove as prove_knot
     from knotopt.supports.registry import find_formulation
 
-    found = options.read_knots(knots, catalogue=catalogue)
     asked = Requirements(formulation, r, threading, with_loops=with_loops(with_))
     proofs = find_formulation(formulation).proofs
     if method not in (None, *proofs):
         options.refuse("--method", f"expected {' or '.join(proofs)}")
     limits = options.solver_limits(time_limit)
+    found = options.read_knots(knots, catalogue=catalogue)
     settings = [asked.words, asked.threading, str(asked.openness), cut, method]
     header = options.run_header("prove", settings, found)
     proven: list[str] = []

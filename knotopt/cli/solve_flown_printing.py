@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 def flown_json(named: NamedDiagram, flown: FlownResult) -> dict[str, Any]:
     """What `--json` says."""
     tied = flown.tied.flights if flown.tied else ()
-    content = search_json(named.name, flown.search, None)
+    content = search_json(named.name, flown.search)
     for key in ("proven", "proven_over_cuts"):  # smaller sets that were cut off are open as well
         content[key] = content[key] and not flown.smaller_cut_off
     return content | {

@@ -5,14 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from knotopt.cli.printing import print_facts, print_json, print_table
+from knotopt.cli.solve_diagrams import diagrams_in_words
 from knotopt.cli.solve_laid_printing import laid_facts, laid_json
 from knotopt.supports.registry import find_formulation
 
 if TYPE_CHECKING:
     from formulations.solution import Enumeration
+    from knotopt.supports.diagram_search import DiagramSearch
     from knotopt.supports.minimal import MinimalSupports
     from knotopt.supports.requirements import Requirements
-    from knotopt.supports.search import CutOutcome, CutSearch, DiagramSearch
+    from knotopt.supports.search import CutOutcome, CutSearch
 
 
 def supports_json(name: str, result: MinimalSupports) -> dict[str, Any]:
@@ -51,10 +53,8 @@ def supports_json(name: str, result: MinimalSupports) -> dict[str, Any]:
     }
 
 
-def search_json(
-    name: str, search: CutSearch, diagram_search: DiagramSearch | None = None
-) -> dict[str, Any]:
-    """What `--json` says of a search over cuts, perhaps of several diagrams."""
+def search_json(name: str, search: CutSearch) -> dict[str, Any]:
+    """What `--json` says of a search over cuts."""
     cable = search.best.cable
     laid = {} if search.cut_off is None else {"laid": laid_json(search)}
     return (
@@ -73,7 +73,7 @@ def search_json(
                 }
                 for each in search.outcomes
             ],
-            "diagrams_tried": diagram_search.tried if diagram_search else 1,
+            "diagrams_tried": 1,
             "grid": [list(mark) for mark in cable.diagram.marks],
             "path": [list(mark) for mark in cable.path],
         }
@@ -108,11 +108,7 @@ def show_search(
     if search.cut_off is not None:
         facts += laid_facts(search)
     if diagram_search is not None:
-        words = (
-            f"best of {diagram_search.tried} found by translations and commutations, "
-            f"seed {diagram_search.seed}; others may do better"
-        )
-        facts.insert(1, ("diagrams", words))
+        facts.insert(1, ("diagrams", diagrams_in_words(diagram_search)))
     print_facts(facts)
     if len(search.outcomes) > 1:
         cells = (_outcome_cells(outcome, result.robots) for outcome in search.outcomes)
@@ -133,8 +129,10 @@ def _facts(search: CutSearch, cut_off: int) -> list[tuple[str, str]]:
     bound = "none known" if search.bound is None else f"{search.bound} robots"
     first = "largest smallest opening, then first" if rules.has_openness else "first on the path"
     equals = first if result.canonical else "any of them"
-    fails = f"not open: closes {closed}" if rules.has_openness else f"not on {closed}"
-    lcf = f"{result.lcf.robots} robots, {fails if closed else rules.adjective}"
+    lcf = f"{result.lcf.robots} robots, "
+    lcf += rules.adjective if result.lcf_report.is_open else f"not {rules.adjective}"
+    if closed:
+        lcf += f": closes {closed}" if rules.has_openness else f": none on {closed}"
     facts = [
         ("formulation", in_words(requirements)),
         ("meaning", rules.meaning),

@@ -47,9 +47,8 @@ def from_braid(word: Sequence[int], strands: int | None = None) -> PlanarDiagram
     for place, letter in enumerate(word, 1):
         if not 0 < abs(letter) < strands:
             raise DiagramError(
-                f"letter {place} of the braid word is {letter}: {strands} strand"
-                f"{'s have' if strands > 1 else ' has'} "
-                f"{f'letters 1 to {strands - 1} and their negatives' if strands > 1 else 'none'}"
+                f"letter {place} of the braid word is {letter}; a braid of {strands} strands has "
+                f"letters from 1 to {strands - 1}, and their negatives"
             )
     # Strands come into a letter at (letter, 0) on the left and (letter, 1) on the right.
     first: dict[int, tuple[int, int]] = {}  # of each position, where the strand above 0 comes in

@@ -7,7 +7,7 @@ Source: the Knot Atlas, "Planar Diagrams" (KnotTheory's `PD[X[1,5,2,4], ...]`); 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeVar
@@ -128,13 +128,29 @@ class PlanarDiagram:
         return tuple(visits)
 
     @cached_property
-    def faces(self) -> tuple[tuple[tuple[int, int], ...], ...]:
+    def other_ends(self) -> Mapping[End, End]:
+        """Of each edge's end at a crossing, as (crossing, side) from 0: the edge's other end."""
+        return _other_ends(self.crossings)
+
+    @cached_property
+    def faces(self) -> tuple[tuple[End, ...], ...]:
         """Around each face, counterclockwise, its edges as (crossing, side) where each begins.
 
-        Crossings and sides are counted from 0: ``crossings[crossing][side]`` is the edge, and the
-        face lies to its left. A circle without crossings has none listed.
+        ``crossings[crossing][side]`` is the edge, and the face lies to its left. A circle without
+        crossings has none listed.
         """
-        return _faces(self.crossings)
+        left = dict.fromkeys((c, side) for c in range(len(self.crossings)) for side in range(4))
+        faces = []
+        while left:
+            here = next(iter(left))
+            face = []
+            while here in left:
+                del left[here]
+                face.append(here)
+                crossing, side = self.other_ends[here]
+                here = (crossing, (side - 1) % 4)
+            faces.append(tuple(face))
+        return tuple(faces)
 
     @property
     def mirrored(self) -> PlanarDiagram:
@@ -227,19 +243,3 @@ def _walk(crossings: Sequence[Sequence[Hashable]]) -> list[End]:
     if len(walks) > 1:
         raise DiagramError(f"this code is a link of {len(walks)} components, a knot has 1")
     return walks[0]
-
-
-def _faces(crossings: Sequence[Crossing]) -> tuple[tuple[End, ...], ...]:
-    other = _other_ends(crossings)
-    left = dict.fromkeys(other)
-    faces = []
-    while left:
-        here = next(iter(left))
-        face = []
-        while here in left:
-            del left[here]
-            face.append(here)
-            crossing, side = other[here]
-            here = (crossing, (side - 1) % 4)
-        faces.append(tuple(face))
-    return tuple(faces)

@@ -13,23 +13,47 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from knotopt.cable.cable import Cable
+from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import OutputError
 from knotopt.files import write_atomically
-from knotopt.plot.cable import draw_cable, draw_loops, draw_regions, draw_robots, draw_spans
+from knotopt.plot.cable import (
+    draw_cable,
+    draw_closed,
+    draw_loops,
+    draw_regions,
+    draw_robots,
+    draw_spans,
+)
 from knotopt.supports.lcf import LcfResult
 from knotopt.supports.minimal import MinimalSupports
 from knotopt.supports.regions import Regions
 from knotopt.supports.registry import find_formulation
+from knotopt.supports.support_set import SupportSet
 
 PANEL = 3.4  # width of a panel [inch]: one column of a two-column paper
 FORMATS = (".png", ".pdf", ".svg")
 
 
+def diagram_figure(diagram: GridDiagram, title: str) -> Figure:
+    """One panel: the closed knot of a grid diagram."""
+    figure, (axes,) = _panels(1, diagram.size)
+    draw_closed(axes, diagram)
+    figure.suptitle(title, fontsize=9, parse_math=False)
+    return figure
+
+
 def cable_figure(cable: Cable, title: str) -> Figure:
     """One panel: the grid diagram opened at its cut, turning points numbered."""
-    figure, (axes,) = _panels(1, cable)
+    figure, (axes,) = _panels(1, cable.diagram.size)
     draw_cable(axes, cable)
     return titled(figure, title, draw_robots(axes, cable, [])[1:])
+
+
+def set_figure(chosen: SupportSet, title: str) -> Figure:
+    """One panel: the cable and its robots."""
+    figure, (axes,) = _panels(1, chosen.cable.diagram.size)
+    draw_cable(axes, chosen.cable)
+    return titled(figure, title, draw_robots(axes, chosen.cable, chosen.supports))
 
 
 def supports_figure(
@@ -39,7 +63,7 @@ def supports_figure(
 
     With `taut`, also the straight spans between consecutive robots.
     """
-    figure, (axes,) = _panels(1, regions.cable)
+    figure, (axes,) = _panels(1, regions.cable.diagram.size)
     shades = draw_regions(axes, regions)
     draw_cable(axes, regions.cable)
     handles = draw_robots(axes, regions.cable, supports)
@@ -52,7 +76,7 @@ def loops_figure(
     cable: Cable, supports: Collection[int], loops: Sequence[int], title: str
 ) -> Figure:
     """One panel: supports, the taut cable, and loops, by their crossings' indices, in colours."""
-    figure, (axes,) = _panels(1, cable)
+    figure, (axes,) = _panels(1, cable.diagram.size)
     handles: list[Artist] = [*draw_loops(axes, cable, loops)]
     draw_cable(axes, cable)
     robots = draw_robots(axes, cable, supports)
@@ -62,7 +86,7 @@ def loops_figure(
 def before_after_figure(result: LcfResult, title: str) -> Figure:
     """Two panels: above the baseline, a robot at every turning point, and below LCF's supports."""
     cable = result.cable
-    figure, (before, after) = _panels(2, cable)
+    figure, (before, after) = _panels(2, cable.diagram.size)
     draw_cable(before, cable)
     draw_robots(before, cable, range(2, len(cable.path)))
     before.set_title(f"before: {result.baseline} robots", fontsize=9)
@@ -91,7 +115,7 @@ def figure_bytes(figure: Figure, format: str) -> bytes:
 
 def minimal_figure(results: Sequence[MinimalSupports], title: str) -> Figure:
     """One panel a result, one above the other: its smallest set and the taut cable."""
-    figure, panels = _panels(len(results), *(result.cable for result in results))
+    figure, panels = _panels(len(results), *(result.cable.diagram.size for result in results))
     handles: list[Artist] = []
     for axes, result in zip(panels, results, strict=True):
         cable = result.cable
@@ -142,8 +166,8 @@ LEGEND: dict[str, Any] = {
 }
 
 
-def _panels(count: int, *cables: Cable) -> tuple[Figure, list[Axes]]:
-    side = max(PANEL, *(0.25 * cable.diagram.size for cable in cables))
+def _panels(count: int, *sizes: int) -> tuple[Figure, list[Axes]]:
+    side = max(PANEL, *(0.25 * size for size in sizes))
     figure = Figure(figsize=(side, count * side + 0.9), layout="constrained")
     axes = figure.subplots(count, 1, squeeze=False)[:, 0]
     return figure, list(axes)

@@ -1,9 +1,8 @@
 """The forms in which a knot may be given, in the order in which they are tried.
 
 A form's reader takes the content and what is asked, and answers with a `Reading`, with None where
-the content is of another form, or with an error that says where a code of this form is wrong. The
-first form that can be read is taken; if there is none, the first error is the answer. So of two
-forms that look alike, such as a braid word and a Gauss code, that one is taken which is a knot.
+the content is of another form, or with an error that says where it is wrong as one of this form.
+The first answer counts: a matrix with a wrong entry is not read as anything else.
 """
 
 from __future__ import annotations
@@ -11,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from knotopt.reading import marks, matrix, names
+from knotopt.reading import arc, braid, curve, dt, gauss, marks, matrix, names, pd, xo
 from knotopt.reading.content import Content
 from knotopt.reading.record import Asked, Reading
 
@@ -52,4 +51,16 @@ FORMS: tuple[Form, ...] = (
         ("grid_notation",),
         only_named=True,
     ),
+    Form("pd", "PD code", pd.read, ("pd", "pd_code", "pd_notation")),
+    Form("dt", "DT code", dt.read, ("dt", "dt_code", "dt_notation")),
+    Form(
+        "gauss",
+        "Gauss code",
+        gauss.read,
+        ("gauss", "gauss_code", "gauss_notation", "oriented_gauss_code"),
+    ),
+    Form("xo", "grid of X and O", xo.read),
+    Form("arc", "arc presentation", arc.read, ("arc_notation", "arc_presentation", "arcs", "arc")),
+    Form("braid", "braid word", braid.read, ("braid", "br", "braid_word", "braid_notation")),
+    Form("curve", "curve in space", curve.read, ("points", "curve", "coordinates")),
 )

@@ -42,15 +42,21 @@ class Goal:
         Where the state comes from, in words.
     cable : Cable or None
         The cable that the first state is of, if a knot was named.
+    form : str
+        What was understood.
     notes : tuple of str
         Readings chosen, as of `NamedDiagram`.
+    ambiguous : bool
+        As of `NamedDiagram`.
     """
 
     states: tuple[RopeState, ...]
     name: str
     source: str
     cable: Cable | None = None
+    form: str = "rope's state"
     notes: tuple[str, ...] = ()
+    ambiguous: bool = False
 
 
 def read_goal(
@@ -112,7 +118,7 @@ def read_goal(
     named = read_knot(source, over=over, mirror=mirror, form=form)
     cable = Cable(named.diagram, cut or "L+")
     states = _with(cable_state(cable), which)
-    return Goal(states, named.name, named.source, cable, named.notes)
+    return Goal(states, named.name, named.source, cable, named.form, named.notes, named.ambiguous)
 
 
 _GAUSS = re.compile(r"\s*([OU]\d|trivial\s*$)", re.IGNORECASE)

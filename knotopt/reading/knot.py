@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from knotopt.diagram.grid import GridDiagram
-from knotopt.diagram.simplify import simplify
 from knotopt.errors import FileFormatError, KnotoptError
 from knotopt.planar.planar_diagram import PlanarDiagram
-from knotopt.reading import names
+from knotopt.planar.small_grid import small_grid
+from knotopt.reading import xo
 from knotopt.reading.content import Content
 from knotopt.reading.forms import FORMS, Form
 from knotopt.reading.lists import Lists
-from knotopt.reading.over import COLUMNS, ROWS, mirrored
+from knotopt.reading.miss import miss
+from knotopt.reading.over import COLUMNS, ROWS
 from knotopt.reading.record import Asked, NamedDiagram, Reading
 from knotopt.reading.source import Source, read_source
 
@@ -56,13 +58,15 @@ def read_knot(
     >>> found = read_knot("[[0, -1, 1], [1, 0, -1], [-1, 1, 0]]")
     >>> found.name, found.source, found.diagram.size
     ('matrix', 'as given', 3)
-    >>> read_knot("8_22")  # doctest: +ELLIPSIS
+    >>> read_knot("8_22")
     Traceback (most recent call last):
     ...
-    knotopt.errors.UnknownKnotError: no knot is named '8_22'; nearest: 8_2, ...
+    knotopt.errors.UnknownKnotError: no knot is named '8_22'; KnotInfo has 8_1 to 8_21
     """
-    asked = Asked(_checked_over(over))
+    asked = Asked(_checked_over(over), form)
     only = _form_named(form)
+    if isinstance(knot, NamedDiagram):
+        return _mirrored(knot) if mirror else knot
     if isinstance(knot, str | Path | Source):
         source = knot if isinstance(knot, Source) else read_source(knot)
         content = Content(source.text)
@@ -90,20 +94,15 @@ def _read(content: Content, asked: Asked, only: Form | None) -> tuple[Reading, s
     if isinstance(content.value, dict):
         content, keyed = _under_key(content)
         forms = forms if only is not None or keyed is None else [keyed]
-    first: KnotoptError | None = None
     for form in forms:
-        try:
-            found = form.read(content, asked)
-        except KnotoptError as error:
-            first = first or error
-        else:
-            if found is not None:
-                return found, form.title
-    if first is not None:
-        raise first
+        found = form.read(content, asked)
+        if found is not None:
+            return found, form.title
+    if content.key and len(forms) == 1:
+        raise FileFormatError(f'the key "{content.key}" holds no {forms[0].title}')
     if only is not None:
-        raise FileFormatError(f"this is no {only.title}")
-    raise names.unknown(content.text)
+        raise FileFormatError(f"this cannot be read as {only.title}")
+    raise miss(content)
 
 
 def _under_key(content: Content) -> tuple[Content, Form | None]:
@@ -113,24 +112,42 @@ def _under_key(content: Content) -> tuple[Content, Form | None]:
         for name in form.keys:
             if name in by_name:
                 return content.inside(name, content.value[by_name[name]]), form
+    if any(by_name.keys() >= {*pair} for pair in xo.PAIRS_OF_KEYS):
+        return content, _form_named("xo")
     found = ", ".join(map(repr, content.value)) or "none"
     raise FileFormatError(f'expected a key such as "grid", "matrix" or "pd_code", found {found}')
 
 
 def _finished(found: Reading, title: str, source: Source, *, mirror: bool) -> NamedDiagram:
     """The record of what was read: drawn on a grid if it is not one, mirrored if asked."""
-    diagram, notes = found.diagram, list(found.notes)
+    diagram = found.diagram
     if isinstance(diagram, PlanarDiagram):
-        from knotopt.planar.grid_drawing import draw_grid  # type: ignore[import-not-found]
+        diagram = small_grid(diagram)
+    named = NamedDiagram(
+        found.name or source.name or title,
+        diagram,
+        found.source or source.words,
+        found.prime_knot,
+        title,
+        tuple(found.notes),
+        found.ambiguous,
+    )
+    return _mirrored(named, is_name=found.name is not None) if mirror else named
 
-        diagram = simplify(draw_grid(diagram))
-    if mirror:
-        diagram = mirrored(diagram)
-        notes.append("mirror image, as asked")
-    name = found.name or source.name or title
-    words = found.source or source.words
-    prime_knot = None if mirror else found.prime_knot
-    return NamedDiagram(name, diagram, words, prime_knot, title, tuple(notes))
+
+def _mirrored(named: NamedDiagram, *, is_name: bool = True) -> NamedDiagram:
+    """The mirror image, and so called if the knot has a name of its own."""
+    name = named.name
+    if is_name:
+        name = name[1:] if name.startswith("m") else f"m{name}"
+    return replace(
+        named,
+        name=name,
+        diagram=named.diagram.mirrored,
+        prime_knot=None,
+        notes=(*named.notes, "mirror image, as asked"),
+        ambiguous=False,
+    )
 
 
 def _checked_over(over: str | None) -> str | None:
@@ -154,4 +171,6 @@ def _plain(value: Any) -> Any:
         return value.tolist()
     if isinstance(value, list | tuple):
         return [_plain(entry) for entry in value]
+    if isinstance(value, dict):
+        return {key: _plain(entry) for key, entry in value.items()}
     return value

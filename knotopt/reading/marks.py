@@ -30,7 +30,9 @@ def read(content: Content, asked: Asked) -> Reading | None:
     diagram, over = with_over(GridDiagram.from_marks(marks), asked, COLUMNS)
     if asked.over is None and not content.key and (name := _knotinfo_name(marks)):
         over += f"; KnotInfo's marks of {name} are these, and there rows do: --over rows"
-    return Reading(_oriented(diagram), (over, *notes))
+    own = content.key == "grid" or content.header == ("column", "row")
+    ambiguous = asked.over is None and not own
+    return Reading(_oriented(diagram), (over, *notes), ambiguous=ambiguous)
 
 
 def read_grid_notation(content: Content, asked: Asked) -> Reading | None:
@@ -79,8 +81,7 @@ def are_pairs(rows: list[list[Any]]) -> str:
     entries = [entry for row in rows for entry in row if isinstance(entry, int)]
     if not entries or len(entries) * 10 < 16 * len(rows) or -1 in entries:
         return ""
-    size = max(entries) - min(*entries, 1) + 1
-    return "marks" if len(rows) * 4 >= 5 * size else "arc"
+    return "marks" if len(rows) * 4 >= 5 * len({*entries}) else "arc"
 
 
 def _oriented(diagram: GridDiagram) -> GridDiagram:

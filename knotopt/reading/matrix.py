@@ -20,11 +20,13 @@ def read(content: Content, asked: Asked) -> Reading | None:
     if rows is None or not (content.key == "matrix" or _is_matrix(rows)):
         return None
     diagram, over = with_over(GridDiagram.from_matrix(rows), asked, COLUMNS)
-    return Reading(diagram, (over, "the first line is the top row"))
+    ambiguous = asked.over is None and not content.key
+    return Reading(diagram, (over, "the first line is the top row"), ambiguous=ambiguous)
 
 
 def _is_matrix(rows: list[list[object]]) -> bool:
-    """Whether most entries are 0 or +-1, in about as many columns as rows, one sign negative."""
+    """Whether most entries are 0, 1 and -1, in about as many columns as rows."""
     entries = [entry for row in rows for entry in row]
     fits = sum(entry in (-1, 0, 1) for entry in entries)
-    return len(rows[0]) >= 2 and fits * 10 >= 8 * len(entries) and (-1 in entries)
+    is_square = len(rows[0]) >= 2 and abs(len(rows) - len(rows[0])) <= 2
+    return is_square and fits * 10 >= 8 * len(entries) and -1 in entries

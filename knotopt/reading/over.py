@@ -12,14 +12,6 @@ from knotopt.reading.record import Asked
 COLUMNS, ROWS = "columns", "rows"
 
 
-def mirrored(diagram: GridDiagram) -> GridDiagram:
-    """The mirror image, columns over rows: the order of the rows is reversed."""
-    above = diagram.size + 1
-    return GridDiagram(
-        tuple(above - row for row in diagram.minus), tuple(above - row for row in diagram.plus)
-    )
-
-
 def with_over(
     diagram: GridDiagram, asked: Asked, own: str, whose: str = ""
 ) -> tuple[GridDiagram, str]:
@@ -37,7 +29,7 @@ def with_over(
     """
     over = asked.over or own
     if over == ROWS:
-        diagram = mirrored(diagram)
+        diagram = diagram.mirrored
     note = f"{over} pass over {COLUMNS if over == ROWS else ROWS}"
     if asked.over is None and whose:
         note += f" ({whose})"

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from knotopt.catalogue.knots import PrimeKnot
 from knotopt.diagram.grid import GridDiagram
 from knotopt.planar.planar_diagram import PlanarDiagram
+from knotopt.showing import ShownShort
 
 
 @dataclass(frozen=True)
@@ -18,9 +19,12 @@ class Asked:
     ----------
     over : str or None
         "columns" or "rows", which of a grid's segments pass over; None for the form's own way.
+    form : str or None
+        The one form to read the content in, by its name; None if the content decides.
     """
 
     over: str | None = None
+    form: str | None = None
 
 
 @dataclass(frozen=True)
@@ -39,6 +43,8 @@ class Reading:
         Where the diagram comes from, in words, where that is not the source itself ("KnotInfo").
     prime_knot : PrimeKnot or None
         The catalogue's entry, if the knot is one of it.
+    ambiguous : bool
+        Whether the content may as well mean the mirror image, and one of the two was chosen.
     """
 
     diagram: GridDiagram | PlanarDiagram
@@ -46,10 +52,11 @@ class Reading:
     name: str | None = None
     source: str | None = None
     prime_knot: PrimeKnot | None = None
+    ambiguous: bool = False
 
 
-@dataclass(frozen=True)
-class NamedDiagram:
+@dataclass(frozen=True, repr=False)
+class NamedDiagram(ShownShort):
     """A grid diagram and what it was asked for by.
 
     Attributes
@@ -65,6 +72,8 @@ class NamedDiagram:
         What was understood: "name", "PD code", "matrix".
     notes : tuple of str
         Readings chosen: who passes over, from where rows are counted, "up to mirror image".
+    ambiguous : bool
+        Whether what was read may as well mean the mirror image, and one of the two was chosen.
     """
 
     name: str
@@ -73,3 +82,9 @@ class NamedDiagram:
     prime_knot: PrimeKnot | None = None
     form: str = "grid"
     notes: tuple[str, ...] = ()
+    ambiguous: bool = False
+
+    @property
+    def in_words(self) -> str:
+        """Name, source, grid size."""
+        return f"{self.name} ({self.source}), grid of size {self.diagram.size}"

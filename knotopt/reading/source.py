@@ -93,7 +93,7 @@ def _mode(path: Path) -> int | None:
 
 def _is_path(text: str) -> bool:
     """Whether a text that is no existing file is meant as one."""
-    if len(text) > LONGEST_PATH or re.search(r"[\n\[\](){},;:\0]", text):
+    if len(text) > 1000 or re.search(r"[\n\[\](){},;:\0]", text):
         return False
     return os.sep in text or bool(re.search(r"\.(json|csv|tsv|txt|dat|xyz)\s*$", text, re.I))
 
@@ -116,8 +116,8 @@ def decode(content: bytes, what: str) -> str:
     encoding = "utf-8-sig"
     if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         encoding = "utf-16"
-    elif b"\0" in content[:4]:  # UTF-16 without its mark: every other byte of plain text is zero
-        encoding = "utf-16-be" if content[0] == 0 else "utf-16-le"
+    elif b"\0" in (head := content[:64]):  # no mark: of plain text every other byte is zero
+        encoding = "utf-16-be" if head[::2].count(0) > head[1::2].count(0) else "utf-16-le"
     try:
         text = content.decode(encoding)
     except UnicodeDecodeError as error:

@@ -13,6 +13,8 @@ from knotopt.supports.threading import Threading
 if TYPE_CHECKING:
     from knotopt.supports.formulation import Formulation
 
+MOST_ROBOTS = 1_000_000
+
 
 @dataclass(frozen=True)
 class Requirements:
@@ -125,6 +127,8 @@ class Requirements:
         for point in self.forced:
             if point in self.forbidden:
                 raise RequirementError(f"p{point} is both forced and forbidden")
+        if max_robots is not None and max_robots > MOST_ROBOTS:
+            raise RequirementError(f"at most {MOST_ROBOTS} robots are counted, not {max_robots}")
         if max_robots is not None and max_robots < 2:
             raise RequirementError(f"two robots hold the cable's ends; at most {max_robots} cannot")
 

@@ -148,7 +148,7 @@ def compare(
     return {column: row[column] for column in names(COLUMNS)} | {"paths": path_rows(sets)}
 
 
-def tabulated(rows: Sequence[Row]) -> Tabulation:
+def comparison_table(rows: Sequence[Row]) -> Tabulation:
     """The rows for people, with means and the paths' medians, and all of their cells for programs.
 
     A path's columns are called `lcf_relaxation_length` and so on.

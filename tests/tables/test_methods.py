@@ -36,7 +36,7 @@ from knotopt.document.columns import check_rows
 from knotopt.tables import comparison, table1
 
 found = read_knot("3")
-table = comparison.tabulated([comparison.compare("3_1", found.diagram)]).document.tables[0]
+table = comparison.comparison_table([comparison.compare("3_1", found.diagram)]).document.tables[0]
 print(dict(zip(table.heads, table.rows[0]))["rooms"])
 table = table1.tabulated([next(table1.compute_table1())]).document.tables[0]
 print(dict(zip(table.heads, table.rows[0]))["rooms"])

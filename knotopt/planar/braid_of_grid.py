@@ -9,18 +9,30 @@ from bisect import bisect_left, insort
 from collections.abc import Sequence
 
 from knotopt.diagram.grid import GridDiagram
+from knotopt.planar.planar_diagram import PlanarDiagram
+from knotopt.planar.small_grid import small_grid
 
 Word = tuple[int, ...]
 
 
-def grid_braid(grid: GridDiagram) -> tuple[Word, int]:
+def braid_word(planar: PlanarDiagram) -> tuple[Word, int]:
+    """A braid of which a diagram's knot is the closure, read off a small grid, and its strands.
+
+    Examples
+    --------
+    >>> braid_word(PlanarDiagram(((3, 1, 4, 0), (7, 5, 0, 4), (5, 2, 6, 3), (1, 6, 2, 7))))
+    ((-1, 2, -1, 2), 3)
+    """
+    return braid_of_grid(small_grid(planar))
+
+
+def braid_of_grid(grid: GridDiagram) -> tuple[Word, int]:
     """A braid of which a grid diagram's knot is the closure, and its number of strands.
 
     Columns that run down are led round the other way: up from their lower end's row to the top and
     on from the bottom, over all rows. Then all columns run up, side by side, and each row takes its
     strand to another column below those between. Of this, the same with rows for columns, and both
-    for the other direction, the word that is shortest when reduced is taken; it has at most half as
-    many strands as the grid has columns.
+    for the other direction, the word that is shortest when reduced is taken.
 
     Parameters
     ----------
@@ -34,7 +46,7 @@ def grid_braid(grid: GridDiagram) -> tuple[Word, int]:
     Examples
     --------
     >>> from knotopt.diagram.families import torus_knot
-    >>> grid_braid(torus_knot(2, 3)), grid_braid(torus_knot(3, -4))
+    >>> braid_of_grid(torus_knot(2, 3)), braid_of_grid(torus_knot(3, -4))
     (((1, 1, 1), 2), ((-1, -2, -1, -2, -1, -2, -1, -2), 3))
     """
     columns_of = [
