@@ -40,7 +40,10 @@ from .reading.writing import write_knot as write_knot
 from .rehearsal.flown_set import FlownSet as FlownSet
 from .rehearsal.rehearse import rehearse_flight as rehearse_flight
 from .rehearsal.tighten import tighten_flight as tighten_flight
+from .search.budget import Budget as Budget
+from .search.search import search_grids as search_grids
 from .supports.certificate import prove as prove
+from .supports.diagram_search import find_diagram as find_diagram
 from .supports.lcf import LcfResult as LcfResult
 from .supports.lcf import best_cut as best_cut
 from .supports.lcf import lcf as lcf
@@ -51,7 +54,6 @@ from .supports.minimal import minimal_supports as minimal_supports
 from .supports.regions import Region as Region
 from .supports.regions import Regions as Regions
 from .supports.requirements import Requirements as Requirements
-from .supports.search import best_diagram as best_diagram
 from .supports.search import best_supports as best_supports
 from .supports.search import supports_by_cut as supports_by_cut
 from .tables.comparison import compare as compare

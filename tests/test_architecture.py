@@ -32,6 +32,7 @@ ALLOWED: Mapping[str, str] = {
     "diagram": "showing errors arrays",
     "planar": "errors arrays diagram",
     "cable": "showing errors arrays diagram planar",
+    "search": "errors diagram",
     "catalogue": "errors files diagram frames",
     "identify": "errors diagram planar cable catalogue",
     "topology": "showing errors arrays planar cable",
@@ -39,10 +40,11 @@ ALLOWED: Mapping[str, str] = {
     # The judges.
     "verify": "errors arrays topology",
     # The makers, each with what its results are judged by.
-    "supports": "showing formulations errors arrays diagram cable verify",
+    "supports": "showing formulations errors arrays diagram search cable verify",
     "path": "showing formulations errors arrays ranges cable topology verify supports",
     "flight": "showing formulations errors arrays ranges diagram cable topology verify supports "
     "path",
+    "laid": "formulations errors diagram planar cable supports path flight",
     "sim": "errors arrays ranges diagram cable catalogue verify flight",
     "rehearsal": "formulations errors arrays ranges diagram cable supports path flight sim",
     # What is made of the results.
@@ -54,11 +56,12 @@ ALLOWED: Mapping[str, str] = {
     "atlas": "formulations knotopt errors arrays files frames document diagram cable catalogue "
     "reading verify supports flight sim plot tables",
     "api": "formulations errors diagram cable reading supports path flight mission",
-    "cli": "formulations knotopt errors files document diagram planar cable catalogue identify "
-    "topology reading verify supports path flight sim rehearsal plot mission tables atlas",
+    "cli": "formulations knotopt errors files document diagram planar search cable catalogue "
+    "identify topology reading verify supports path flight laid sim rehearsal plot mission tables "
+    "atlas",
     "__main__": "cli",
-    "benchmarks": "formulations errors arrays files document diagram planar cable catalogue "
-    "topology reading verify supports path flight sim rehearsal plot mission tables atlas cli",
+    "benchmarks": "formulations errors arrays files document diagram planar search cable catalogue "
+    "topology reading verify supports path flight laid sim rehearsal plot mission tables atlas cli",
 }
 """What each package, or module right in `knotopt`, may import of the others; lower ones first."""
 

@@ -12,6 +12,7 @@ import typer
 from knotopt.cli import options
 from knotopt.cli.completion import among
 from knotopt.cli.fly_printing import show_mission
+from knotopt.cli.formulations import WithOption, with_loops
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import status_line, track
 from knotopt.cli.reading import read
@@ -41,6 +42,7 @@ def fly(
             autocompletion=among(("span", "opening")),
         ),
     ] = None,
+    with_: WithOption = None,
     r: Annotated[float | None, options.openness_option(FLOWN.openness)] = None,
     sim: Annotated[
         bool,
@@ -135,11 +137,13 @@ def fly(
     from knotopt.supports.selection import equally_small
 
     options.check_choice("--schedule", schedule, SCHEDULES)
-    if supports != "milp" and (r is not None or formulation is not None):
-        options.refuse("--formulation" if r is None else "--r", "goes with --supports milp")
+    if supports != "milp":
+        for option in options.given(r=r, formulation=formulation, **{"with": with_}):
+            options.refuse(f"--{option}", "goes with --supports milp")
     requirements = Requirements(
         FLOWN.formulation if formulation is None else formulation,
         FLOWN.openness if r is None else r,
+        with_loops=with_loops(with_),
     )
     world = World(step, altitude, floor, ceiling, ROOM.drone_height, ROOM.downwash)
     limits = FlightLimits(

@@ -10,7 +10,7 @@ import typer
 
 from knotopt.cli import options
 from knotopt.cli.completion import among
-from knotopt.cli.formulations import FormulationOption
+from knotopt.cli.formulations import FormulationOption, WithOption, with_loops
 from knotopt.cli.printing import print_facts, print_json, print_note, print_table, print_written
 from knotopt.cli.reading import read
 from knotopt.path.requirements import PathRequirements
@@ -37,6 +37,7 @@ def path(
     ] = "nlp",
     cut: options.SupportsCutOption = "best",
     formulation: FormulationOption = Requirements.formulation,
+    with_: WithOption = None,
     r: options.OpennessOption = None,
     clearance: Annotated[
         float, typer.Option(help="Smallest distance of strands in plan [grid steps].")
@@ -102,8 +103,11 @@ def path(
     options.check_suffix(out, "curves are", (".csv",))
     if out is not None and method == "both":
         options.refuse("--out", "writes one curve: give --method nlp or relaxation")
-    if supports != "milp" and (r is not None or formulation != Requirements.formulation):
-        options.refuse("--formulation" if r is None else "--r", "goes with --supports milp")
+    if supports != "milp":
+        given = {"--r": r, "--with": with_, "--formulation": formulation}
+        for option, value in given.items():
+            if value not in (None, Requirements.formulation):
+                options.refuse(option, "goes with --supports milp")
     height = {"drone_height": drone_height, "downwash": downwash}
     room = options.given(altitude=altitude, floor=floor, ceiling=ceiling, **height)
     world = _world(step, room, gap)
@@ -112,7 +116,7 @@ def path(
     )
     if world is not None:
         asked = world.requirements(asked)
-    of_the_set = Requirements(formulation, r)
+    of_the_set = Requirements(formulation, r, with_loops=with_loops(with_))
     limits = options.solver_limits(time_limit)
     named = read(knot)
     chosen = choose_supports(named.diagram, supports, cut, of_the_set)

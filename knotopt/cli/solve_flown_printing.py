@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 def flown_json(named: NamedDiagram, flown: FlownResult) -> dict[str, Any]:
     """What `--json` says."""
     tied = flown.tied.flights if flown.tied else ()
-    content = search_json(named.name, flown.search, None)
+    content = search_json(named.name, flown.search)
     for key in ("proven", "proven_over_cuts"):  # smaller sets that were cut off are open as well
         content[key] = content[key] and not flown.smaller_cut_off
     return content | {
@@ -90,7 +90,7 @@ _ENDED = {
 def claim(flown: FlownResult) -> str:
     """What is proven, what was seen in flights, and what is not known."""
     best, count, smaller = flown.result, len(flown.cut_off), flown.smaller_cut_off
-    rows = f"the rows of `{best.requirements.formulation}`"
+    rows = f"the rows of `{best.requirements.words}`"
     many = len(flown.search.outcomes)
     where = f"over the {many} cuts searched" if many > 1 else "on this cut"
     sentences = []

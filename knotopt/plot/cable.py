@@ -31,6 +31,8 @@ SPAN_COLOUR = "#009E73"
 LIFTING_COLOUR = "#D55E00"
 LAYER_COLOURS = ("#FBEBBE", "#F5D57C", "#EBB73A", "#D0930F")
 PASSIVE_COLOUR = "#AAAAAA"
+LOOP_COLOURS = ("#CC79A7", "#56B4E9", "#F0E442", "#E69F00", "#B2ABD2")
+LOOP_WIDTHS = (12, 7)  # [points]
 GAP = 0.2  # half-width of the gap in an under-crossing strand [grid steps]
 CLOSE = 30  # points on a strand
 NUMBER_OFFSET = 8  # from a turning point to its number, along each axis [points]
@@ -132,6 +134,33 @@ def draw_spans(axes: Axes, cable: Cable, supports: Collection[int]) -> list[Line
         label="taut cable",
         zorder=3.5,
     )
+
+
+def draw_loops(axes: Axes, cable: Cable, loops: Collection[int]) -> list[Line2D]:
+    """Loops of the cable, by their crossings' indices, as broad lines below it.
+
+    Two loops that follow each other may share cable between two turning points: widths alternate,
+    so that both are seen.
+
+    Returns
+    -------
+    list of Line2D
+        Handles for a legend.
+    """
+    handles = []
+    for number, index in enumerate(loops):
+        crossing = cable.crossings[index]
+        along = cable.cells[crossing.first : crossing.second + 1]
+        handles += axes.plot(
+            *along.T,
+            color=LOOP_COLOURS[number % len(LOOP_COLOURS)],
+            linewidth=LOOP_WIDTHS[number % len(LOOP_WIDTHS)],
+            solid_joinstyle="miter",
+            solid_capstyle="butt",
+            label=f"loop c{index + 1} at [{crossing.column},{crossing.row}]",
+            zorder=1 + number / 1000,
+        )
+    return handles
 
 
 def draw_regions(axes: Axes, regions: Regions) -> list[Patch]:

@@ -16,7 +16,14 @@ from knotopt.cable.cable import Cable
 from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import OutputError
 from knotopt.files import write_atomically
-from knotopt.plot.cable import draw_cable, draw_closed, draw_regions, draw_robots, draw_spans
+from knotopt.plot.cable import (
+    draw_cable,
+    draw_closed,
+    draw_loops,
+    draw_regions,
+    draw_robots,
+    draw_spans,
+)
 from knotopt.supports.lcf import LcfResult
 from knotopt.supports.minimal import MinimalSupports
 from knotopt.supports.regions import Regions
@@ -65,6 +72,17 @@ def supports_figure(
     return titled(figure, title, [*handles, *shades])
 
 
+def loops_figure(
+    cable: Cable, supports: Collection[int], loops: Sequence[int], title: str
+) -> Figure:
+    """One panel: supports, the taut cable, and loops, by their crossings' indices, in colours."""
+    figure, (axes,) = _panels(1, cable.diagram.size)
+    handles: list[Artist] = [*draw_loops(axes, cable, loops)]
+    draw_cable(axes, cable)
+    robots = draw_robots(axes, cable, supports)
+    return titled(figure, title, [*robots, *draw_spans(axes, cable, supports), *handles])
+
+
 def before_after_figure(result: LcfResult, title: str) -> Figure:
     """Two panels: above the baseline, a robot at every turning point, and below LCF's supports."""
     cable = result.cable
@@ -104,10 +122,10 @@ def minimal_figure(results: Sequence[MinimalSupports], title: str) -> Figure:
         shades = draw_regions(axes, result.lcf.regions)
         draw_cable(axes, cable)
         handles = [*draw_robots(axes, cable, result.supports), *shades]
-        kind = result.requirements.formulation
-        if find_formulation(kind).is_taut:
+        kind = result.requirements
+        if find_formulation(kind.formulation).is_taut:
             handles += draw_spans(axes, cable, result.supports)
-        axes.set_title(f"{kind}, cut {cable.cut}: {result.robots} robots", fontsize=9)
+        axes.set_title(f"{kind.words}, cut {cable.cut}: {result.robots} robots", fontsize=9)
     return titled(figure, title, handles)
 
 

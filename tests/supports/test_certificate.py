@@ -56,6 +56,8 @@ def test_certificates_of_knots(name: str) -> None:
         Requirements(),
         Requirements(openness=0.25, threading="over-under"),
         Requirements("span"),
+        Requirements("span", with_loops=False),
+        Requirements("loops"),
     ):
         verdict = check_certificate(prove(name, diagram, asked))
         assert verdict.robots == best_supports(diagram, asked).best.robots and verdict.every_cut

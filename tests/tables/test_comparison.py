@@ -46,8 +46,8 @@ def test_what_is_shown(rows: list[dict[str, Any]]) -> None:
     methods, paths = comparison_table(rows).document.tables
     first, second, means = methods.rows
     assert methods.heads == HEADS
-    assert first == ("3_1 (Table I, row 3)", "10", "5", "no", "5", "no", "5", "7", "yes")
-    assert second == ("8_19", "14", "10", "yes", "8", "no", "9", "10", "yes")
+    assert first == ("3_1 (Table I, row 3)", "10", "5", "no", "5", "no", "5", "7", "7", "3", "yes")
+    assert second == ("8_19", "14", "10", "yes", "8", "no", "9", "10", "10", "4", "yes")
     assert means[:4] == ("mean of 2", "12.00", "7.50", "50 %")
     assert means[-1] == "100 %"
     assert [row[:4] for row in paths.rows] == [
@@ -62,8 +62,8 @@ def test_what_is_shown(rows: list[dict[str, Any]]) -> None:
 def test_a_method_without_a_set(rows: list[dict[str, Any]]) -> None:
     none = rows[0] | {"opening_robots": None, "opening_proven": False}
     methods, _ = comparison_table([none, none]).document.tables
-    assert methods.rows[0][-3:] == ("none", "7", "no")
-    assert methods.rows[-1][-3:] == ("–", "7.00", "0 %")
+    assert methods.rows[0][-5:] == ("none", "7", "7", "3", "no")
+    assert methods.rows[-1][-5:] == ("–", "7.00", "7.00", "3.00", "0 %")
 
 
 def test_columns_of_paths(rows: list[dict[str, Any]]) -> None:
