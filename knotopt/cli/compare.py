@@ -53,6 +53,7 @@ def compare(
             named.name,
             named.diagram,
             source=named.source,
+            candidates=[named.prime_knot.name] if named.prime_knot else None,
             openness=openness,
             cuts=None if cut == "best" else [Cut.parse(cut, named.diagram.size)],
             solver=solver,

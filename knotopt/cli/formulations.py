@@ -11,12 +11,18 @@ from knotopt.cli.completion import among
 from knotopt.supports.registry import FORMULATIONS
 from knotopt.supports.threading import Threading
 
+_NAMES = " or ".join(f"{each.name} ({each.words})" for each in FORMULATIONS.values())
 FormulationOption = Annotated[
-    str,
+    str, typer.Option(metavar="NAME", autocompletion=among(FORMULATIONS), help=f"{_NAMES}.")
+]
+WhichFormulationOption = Annotated[
+    str | None,
     typer.Option(
+        "--formulation",
         metavar="NAME",
         autocompletion=among(FORMULATIONS),
-        help=" or ".join(f"{each.name} ({each.words})" for each in FORMULATIONS.values()) + ".",
+        help=f"{_NAMES}; by default all that is known of the number of robots is said.",
+        show_default=False,
     ),
 ]
 WITH = {"loops": True, "none": False}
