@@ -45,7 +45,7 @@ ALLOWED: Mapping[str, str] = {
     "flight": "showing formulations errors arrays ranges diagram cable topology verify supports "
     "path",
     "laid": "formulations errors diagram planar cable supports path flight",
-    "sandwich": "formulations catalogue identify reading search supports laid",
+    "sandwich": "formulations diagram catalogue identify reading search supports laid",
     "sim": "errors arrays ranges diagram cable catalogue verify flight",
     "rehearsal": "formulations errors arrays ranges diagram cable supports path flight sim",
     # What is made of the results.
@@ -59,8 +59,8 @@ ALLOWED: Mapping[str, str] = {
     "reading verify supports flight sim plot tables",
     "api": "formulations errors diagram cable reading supports path flight mission",
     "cli": "formulations knotopt errors files document diagram planar search cable catalogue "
-    "identify topology reading verify supports path flight laid sandwich sim rehearsal plot mission "
-    "tables atlas",
+    "identify topology reading verify supports path flight laid sandwich sim rehearsal plot "
+    "mission tables atlas",
     "__main__": "cli",
     "benchmarks": "formulations errors arrays files document diagram planar search cable catalogue "
     "topology reading verify supports path flight laid sim rehearsal plot mission tables atlas cli",

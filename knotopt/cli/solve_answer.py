@@ -38,11 +38,11 @@ def answer_knot(
         found = answer(named, budget=spent, seed=seed, solver=solver, limits=limits)
     written = []
     if plot is not None:
-        from knotopt.plot.figures import loops_figure, save_figure
+        from knotopt.plot.figures import save_figure, smallest_figure
 
         laid = found.laid
         title = f"{named.name}, cut {laid.cable.cut}: {laid.robots} robots lay this diagram"
-        save_figure(loops_figure(laid.cable, laid.supports, laid.disjoint_loops, title), plot)
+        save_figure(smallest_figure(laid, title), plot)
         written.append(plot)
     if as_json:
         print_json(_json(found))

@@ -11,6 +11,8 @@ from functools import cached_property
 
 from formulations.backends import DEFAULT
 from formulations.solution import Limits
+from knotopt.catalogue.stored_grids import stored_grid
+from knotopt.diagram.grid import GridDiagram
 from knotopt.identify.identify import Identified, identify
 from knotopt.reading.record import NamedDiagram
 from knotopt.sandwich.known import KnownOfKnot, known_of_knot
@@ -113,7 +115,16 @@ def answer(
         Requirements("span", openness, with_loops=True),
         budget,
         seed,
+        starts=_grids_at_hand(identified),
         solver=solver,
         limits=limits,
     )
     return Answer(named, identified, known, laid, safe, best_cut(named.diagram), seed)
+
+
+def _grids_at_hand(identified: Identified) -> list[GridDiagram]:
+    """The stored grids with small safe sets, of a knot that is named for certain."""
+    if identified.name is None or not identified.proven:
+        return []
+    stored = [stored_grid(identified.name, f"safe{openness}") for openness in ("0.5", "0.25")]
+    return [grid for grid in stored if grid is not None]
