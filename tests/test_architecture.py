@@ -34,7 +34,7 @@ ALLOWED: Mapping[str, str] = {
     "cable": "showing errors arrays diagram planar",
     "search": "errors diagram",
     "catalogue": "errors files diagram frames",
-    "identify": "errors arrays diagram planar cable catalogue",
+    "identify": "errors diagram planar cable catalogue",
     "topology": "showing errors arrays planar cable",
     "reading": "showing errors arrays diagram planar cable catalogue topology",
     # The judges.
@@ -56,8 +56,9 @@ ALLOWED: Mapping[str, str] = {
     "atlas": "formulations knotopt errors arrays files frames document diagram cable catalogue "
     "reading verify supports flight sim plot tables",
     "api": "formulations errors diagram cable reading supports path flight mission",
-    "cli": "formulations knotopt errors files document diagram search cable catalogue topology "
-    "reading verify supports path flight laid sim rehearsal plot mission tables atlas",
+    "cli": "formulations knotopt errors files document diagram planar search cable catalogue "
+    "identify topology reading verify supports path flight laid sim rehearsal plot mission tables "
+    "atlas",
     "__main__": "cli",
     "benchmarks": "formulations errors arrays files document diagram planar search cable catalogue "
     "topology reading verify supports path flight laid sim rehearsal plot mission tables atlas cli",
