@@ -30,6 +30,7 @@ def test_what_is_cut_off_is_counted(cli: Cli) -> None:
         "cut_off": 1,
         "is_knot": True,
         "redundant": [],
+        "all_flown": True,
     }
     assert (content["robots_after"], content["proven_over_cuts"]) == (7, True)
     assert "laid" not in cli.json("solve", "7 Var2", "--cut", "L+")
