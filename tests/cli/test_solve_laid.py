@@ -49,7 +49,7 @@ def test_it_goes_with_what_a_team_asks(cli: Cli) -> None:
     [
         (("--all",), "--all"),
         (("--max-robots", "5"), "--max-robots"),
-        (("--diagrams", "3"), "--diagrams"),
+        (("--diagrams",), "--diagrams"),
         (("--cut", "all"), "--cut all"),
     ],
 )
