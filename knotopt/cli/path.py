@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from knotopt.cli import options
-from knotopt.cli.formulations import FormulationOption, WithOption, with_loops
+from knotopt.cli.formulations import FormulationOption, WithOption, check_openness, with_loops
 from knotopt.cli.printing import print_facts, print_json, print_note, print_table, print_written
 from knotopt.path.requirements import PathRequirements
 from knotopt.path.world import World
@@ -114,6 +114,7 @@ def path(
     if world is not None:
         asked = world.requirements(asked)
     named = find_knot(knot)
+    check_openness(formulation, r)
     of_smallest = Requirements(formulation, r, with_loops=with_loops(with_))
     chosen = choose_supports(named.diagram, supports, cut, of_smallest)
     results: list[PathResult] = []

@@ -10,7 +10,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from knotopt.cli import options
-from knotopt.cli.formulations import FormulationOption, ThreadingOption, WithOption, with_loops
+from knotopt.cli.formulations import (
+    FormulationOption,
+    ThreadingOption,
+    WithOption,
+    check_openness,
+    with_loops,
+)
 from knotopt.cli.printing import print_json, print_note, print_table, print_written
 from knotopt.cli.progress import track
 from knotopt.supports.requirements import Requirements
@@ -53,6 +59,7 @@ def prove(
     from knotopt.supports.registry import find_formulation
 
     found = options.find_knots(knots, catalogue=catalogue)
+    check_openness(formulation, r)
     asked = Requirements(formulation, r, threading, with_loops=with_loops(with_))
     proofs = find_formulation(formulation).proofs
     if method not in (None, *proofs):

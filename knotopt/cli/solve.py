@@ -10,7 +10,13 @@ import typer
 from formulations.backends import DEFAULT
 from formulations.solution import Limits
 from knotopt.cli import options
-from knotopt.cli.formulations import FormulationOption, ThreadingOption, WithOption, with_loops
+from knotopt.cli.formulations import (
+    FormulationOption,
+    ThreadingOption,
+    WithOption,
+    check_openness,
+    with_loops,
+)
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import logged_bar, track
 from knotopt.cli.solve_flown import (
@@ -133,6 +139,7 @@ def solve(
     from knotopt.supports.search import supports_by_cut
 
     named = find_knot(knot)
+    check_openness(formulation, r)
     asked = Requirements(
         formulation,
         r,
