@@ -14,7 +14,6 @@ from functools import cache
 from benchmarks.registry import Benchmark, Case, Result, register
 from knotopt.cable.cable import Cable
 from knotopt.catalogue.knots import shipped_knots
-from knotopt.catalogue.lookup import find_knot
 from knotopt.catalogue.table1_grids import table1_grids
 from knotopt.errors import RequirementError
 from knotopt.flight.examine import examine_plan
@@ -23,8 +22,9 @@ from knotopt.flight.planner import plan_flight
 from knotopt.flight.record import Disturbance
 from knotopt.flight.request import FlightRequest
 from knotopt.mission.alternatives import PASSED, rehearse_first
+from knotopt.reading.knot import read_knot
 from knotopt.rehearsal.flown_set import FlownSet
-from knotopt.sim.trials import fly_trial, fly_trials
+from knotopt.sim.trials import Flight, fly_trial, fly_trials
 from knotopt.supports.by_size import optimal_sets
 from knotopt.supports.minimal import MinimalSupports
 from knotopt.supports.requirements import Requirements
@@ -77,7 +77,7 @@ def optimal_cases(smoke: bool) -> Iterable[Case]:
 @cache
 def _optimal_sets(row: str, method: str) -> tuple[MinimalSupports, ...]:
     """The smallest sets on all cuts, the canonical one first, `OPTIMAL` at most."""
-    return optimal_sets(find_knot(row).diagram, METHODS[method][1], OPTIMAL).sets
+    return optimal_sets(read_knot(row).diagram, METHODS[method][1], OPTIMAL).sets
 
 
 def rows_of_table1(smoke: bool) -> list[str]:
@@ -87,7 +87,7 @@ def rows_of_table1(smoke: bool) -> list[str]:
 
 def supports_of(case: Case) -> SupportSet:
     """The set of a case."""
-    diagram = find_knot(case["row"]).diagram
+    diagram = read_knot(case["row"]).diagram
     choice, requirements = METHODS[case["method"]]
     if choice in ("all", "lcf"):
         return choose_supports(diagram, choice)
@@ -114,7 +114,7 @@ def measure(case: Case) -> Result:
     if case["method"] in ("none", "random"):
         return measure_set(case)
     choice, requirements = METHODS[case["method"]]
-    sets = equally_small(find_knot(case["row"]).diagram, choice, requirements=requirements)
+    sets = equally_small(read_knot(case["row"]).diagram, choice, requirements=requirements)
     return _measured(case["row"], tuple(sets))
 
 
@@ -137,11 +137,21 @@ def _measured(name: str, sets: tuple[SupportSet, ...]) -> Result:
         return {**about, "planned": False, "why": str(error)}
     about = _about(plan.cable, plan.supports, 1 + sum(PASSED in note for note in plan.notes))
     planned = time.perf_counter() - started
-    flights = fly_trials(plan, [Disturbance(noise=NOISE, seed=seed) for seed in SEEDS])
-    lost = next((each for each in (trial, *flights) if not each.is_tied), None)
     return {
         **about,
         "planned": True,
+        **measure_flown(trial, SEEDS),
+        "rehearsals": rehearsals,
+        "planning_seconds": round(planned, 2),
+    }
+
+
+def measure_flown(trial: Flight, seeds: Iterable[int]) -> Result:
+    """What an undisturbed flight came to, and flights of its plan with noise of these seeds."""
+    plan = trial.plan
+    flights = fly_trials(plan, [Disturbance(noise=NOISE, seed=seed) for seed in seeds])
+    lost = next((each for each in (trial, *flights) if not each.is_tied), None)
+    return {
         "undisturbed": str(trial.verdict),
         "tied": trial.is_tied,
         "disturbed": [str(each.verdict) for each in flights],
@@ -149,8 +159,6 @@ def _measured(name: str, sets: tuple[SupportSet, ...]) -> Result:
         "first_amiss": lost.amiss if lost else "",
         "schedule": plan.schedule,
         "flight_seconds": round(plan.duration, 2),
-        "rehearsals": rehearsals,
-        "planning_seconds": round(planned, 2),
         "simulation_seconds": round(trial.record.seconds, 3),
         "smallest_distance": round(trial.record.smallest_distance, 4),
         "largest_tension": round(trial.record.largest_tension, 3),

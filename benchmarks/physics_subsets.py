@@ -11,10 +11,10 @@ from itertools import combinations
 
 from benchmarks.registry import Benchmark, Case, Result, register
 from knotopt.cable.cable import Cable
-from knotopt.catalogue.lookup import find_knot
 from knotopt.errors import RequirementError
 from knotopt.flight.examine import LEAST_OPEN
 from knotopt.flight.planner import plan_flight
+from knotopt.reading.knot import read_knot
 from knotopt.sim.trials import fly_trial
 from knotopt.verify.opening import check_opening
 from knotopt.verify.span import check_span
@@ -29,7 +29,7 @@ GRIDS = {"3_1": ("3", "L+"), "4_1": ("4", "L+")}  # row of Table I and cut
 def subset_cases(smoke: bool) -> Iterable[Case]:
     """Every subset of the turning points: 256 of 3_1 and 1,024 of 4_1."""
     for knot, (row, cut) in GRIDS.items():
-        turning = range(2, len(Cable(find_knot(row).diagram, cut).path))
+        turning = range(2, len(Cable(read_knot(row).diagram, cut).path))
         for size in range(len(turning) + 1):
             for supports in combinations(turning, size):
                 yield {"knot": knot, "row": row, "cut": cut, "supports": list(supports)}
@@ -39,7 +39,7 @@ def subset_cases(smoke: bool) -> Iterable[Case]:
 
 def measure_subset(case: Case) -> Result:
     """Whether a set ties on the modelled route, undisturbed, and what the models say of it."""
-    cable = Cable(find_knot(case["row"]).diagram, case["cut"])
+    cable = Cable(read_knot(case["row"]).diagram, case["cut"])
     supports = tuple(case["supports"])
     says = said_of(cable, supports)
     try:

@@ -10,8 +10,8 @@ from statistics import median
 
 from benchmarks.registry import Benchmark, Case, Result, register
 from knotopt.cable.cable import Cable
-from knotopt.catalogue.lookup import find_knot
 from knotopt.diagram.families import torus_knot
+from knotopt.reading.knot import read_knot
 from knotopt.supports.lcf import best_cut
 from knotopt.topology.actions import R2, Action, perform
 from knotopt.topology.cable_state import cable_state
@@ -121,7 +121,7 @@ def goal_of(name: str) -> RopeState:
         return RopeState.from_gauss(WRITTEN[name])
     if name == "T(3,7)":
         return cable_state(Cable(torus_knot(3, 7), "L+"))
-    return cable_state(best_cut(find_knot(name).diagram).cable)
+    return cable_state(best_cut(read_knot(name).diagram).cable)
 
 
 def forward_search(goal: RopeState) -> int:

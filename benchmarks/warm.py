@@ -8,8 +8,8 @@ from functools import cache
 @cache
 def warm_paths() -> None:
     """Import CasADi, differentiate the elements and solve a path, once a process."""
-    from knotopt.catalogue.lookup import find_knot
     from knotopt.path.measures import both_methods
+    from knotopt.reading.knot import read_knot
     from knotopt.supports.lcf import best_cut
 
-    both_methods(best_cut(find_knot("3").diagram))
+    both_methods(best_cut(read_knot("3").diagram))

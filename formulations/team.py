@@ -51,6 +51,8 @@ class Team:
     excluded : tuple of tuple of int
         Sets of points between the ends that are not the answer: each is ruled out by itself, not
         the sets that contain it.
+    clauses : tuple of tuple of int
+        Of each, one literal at least holds: +k, point k carries a robot; -k, it does not.
     at_most : int or None
         Robots there are, lifting robots included.
     """
@@ -62,6 +64,7 @@ class Team:
     forbidden: tuple[int, ...] = ()
     forced: tuple[int, ...] = ()
     excluded: tuple[tuple[int, ...], ...] = ()
+    clauses: tuple[tuple[int, ...], ...] = ()
     at_most: int | None = None
 
     def rows(self, points: int) -> Iterable[Row]:
@@ -88,6 +91,9 @@ class Team:
             literals = tuple(-k if k in points_held else k for k in range(2, points))
             origin = " ".join(f"p{k}" for k in points_held) or "no supports"
             yield Row(literals, 1, "excluded", origin)
+        # Cuts: what sets that failed a test say of others.
+        for literals in self.clauses:
+            yield Row(literals, 1, "cut off", " ".join(map(str, literals)))
         # At most k robots.
         if self.at_most is not None:
             literals = tuple(-k for k in range(1, points + 1))

@@ -6,7 +6,7 @@ The public names are listed in `__init__.pyi` and imported when first used, so t
 Examples
 --------
 >>> import knotopt
->>> result = knotopt.best_cut(knotopt.find_knot("8_19").diagram)
+>>> result = knotopt.best_cut(knotopt.read("8_19").diagram)
 >>> result.baseline, result.robots
 (14, 10)
 """

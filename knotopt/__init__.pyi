@@ -1,4 +1,5 @@
 from .api import plan as plan
+from .api import read as read
 from .api import solve as solve
 from .cable.alexander import alexander_polynomial as alexander_polynomial
 from .cable.alexander import determinant as determinant
@@ -12,12 +13,10 @@ from .cable.notation import pd_code as pd_code
 from .cable.staircase import find_staircases as find_staircases
 from .catalogue.knotinfo import knotinfo_knots as knotinfo_knots
 from .catalogue.knots import shipped_knots as shipped_knots
-from .catalogue.lookup import find_knot as find_knot
 from .catalogue.table1_grids import table1_grids as table1_grids
 from .diagram.families import random_knot as random_knot
 from .diagram.families import torus_knot as torus_knot
 from .diagram.grid import GridDiagram as GridDiagram
-from .diagram.reading import read_grid as read_grid
 from .diagram.simplify import simplify as simplify
 from .errors import KnotoptError as KnotoptError
 from .flight.leader_plan import flown_plan as flown_plan
@@ -38,7 +37,10 @@ from .path.world import World as World
 from .rehearsal.flown_set import FlownSet as FlownSet
 from .rehearsal.rehearse import rehearse_flight as rehearse_flight
 from .rehearsal.tighten import tighten_flight as tighten_flight
+from .search.budget import Budget as Budget
+from .search.search import search_grids as search_grids
 from .supports.certificate import prove as prove
+from .supports.diagram_search import find_diagram as find_diagram
 from .supports.lcf import LcfResult as LcfResult
 from .supports.lcf import best_cut as best_cut
 from .supports.lcf import lcf as lcf
@@ -49,10 +51,10 @@ from .supports.minimal import minimal_supports as minimal_supports
 from .supports.regions import Region as Region
 from .supports.regions import Regions as Regions
 from .supports.requirements import Requirements as Requirements
-from .supports.search import best_diagram as best_diagram
 from .supports.search import best_supports as best_supports
 from .supports.search import supports_by_cut as supports_by_cut
 from .tables.comparison import compare as compare
+from .tables.comparison import comparison_table as comparison_table
 from .topology.cable_state import cable_state as cable_state
 from .topology.extract import extract_state as extract_state
 from .topology.plan import plan_graph as plan_graph

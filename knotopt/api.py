@@ -9,7 +9,6 @@ from formulations.backends import DEFAULT
 from formulations.solution import Limits
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import Cut
-from knotopt.catalogue.lookup import NamedDiagram, find_knot
 from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import RequirementError
 from knotopt.flight.limits import ROOM, FlightLimits
@@ -17,11 +16,16 @@ from knotopt.flight.plan import FlightPlan
 from knotopt.flight.request import FLOWN, FlightRequest
 from knotopt.mission.alternatives import plan_first, rehearse_first
 from knotopt.path.world import World
+from knotopt.reading.knot import read_knot
+from knotopt.reading.record import NamedDiagram
 from knotopt.supports.minimal import MinimalSupports, minimal_supports
 from knotopt.supports.requirements import Requirements
 from knotopt.supports.search import best_supports
 from knotopt.supports.selection import equally_small
 from knotopt.supports.support_set import SupportSet
+
+read = read_knot
+"""Any knot: see `knotopt.reading.knot.read_knot`."""
 
 
 def solve(
@@ -37,7 +41,7 @@ def solve(
     Parameters
     ----------
     knot : str or GridDiagram
-        A name, a row of Table I, T(p,q), or a file, as `find_knot` reads them.
+        A name, a row of Table I, T(p,q), a code, or a file, as `read` reads them.
     requirements : Requirements, optional
         By default formulation `opening` with an openness of half a grid step.
     cut : str
@@ -141,4 +145,4 @@ def plan(
 
 
 def _named(knot: str | GridDiagram) -> NamedDiagram:
-    return find_knot(knot) if isinstance(knot, str) else NamedDiagram("grid", knot, "given")
+    return read(knot)

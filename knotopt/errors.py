@@ -80,4 +80,4 @@ def require_extra(package: str, extra: str, purpose: str) -> None:
 
 def install_line(extra: str) -> str:
     """The line that installs an optional extra."""
-    return f"pip install 'knotopt[{extra}]' (in a clone: pip install '.[{extra}]')"
+    return f"pip install '.[{extra}]' in a clone, elsewhere pip install 'knotopt[{extra}]'"

@@ -11,13 +11,13 @@ from knotopt.supports.requirements import Requirements
 
 
 def test_a_name_and_its_diagram_have_the_same_answer() -> None:
-    named, drawn = knotopt.solve("4_1"), knotopt.solve(knotopt.find_knot("4_1").diagram)
+    named, drawn = knotopt.solve("4_1"), knotopt.solve(knotopt.read("4_1").diagram)
     assert (named.supports, named.cable) == (drawn.supports, drawn.cable)
     assert named.is_proven and named.report.is_open
 
 
 def test_the_best_cut_is_no_worse_than_any() -> None:
-    diagram = knotopt.find_knot("5_2").diagram
+    diagram = knotopt.read("5_2").diagram
     cuts = [str(cut) for cut in knotopt.outer_cuts(diagram)]
     assert knotopt.solve("5_2").robots <= min(knotopt.solve("5_2", cut=cut).robots for cut in cuts)
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from knotopt.atlas.schema import KnotRow
 from knotopt.catalogue.knotinfo import knotinfo_knots
 from knotopt.catalogue.knots import PrimeKnot, shipped_knots
-from knotopt.catalogue.lookup import NamedDiagram, find_knot
 from knotopt.errors import FileFormatError
+from knotopt.reading.knot import read_knot
+from knotopt.reading.record import NamedDiagram
 
 INVARIANTS = ("crossing_number", "arc_index", "alternating", "determinant", "signature")
 SUFFIXES = (".json", ".csv")
@@ -20,7 +21,7 @@ def knot_rows(knots: Iterable[NamedDiagram]) -> tuple[KnotRow, ...]:
 
     Examples
     --------
-    >>> rows = knot_rows(map(find_knot, ["3_1", "4_1", "3_1"]))
+    >>> rows = knot_rows(map(read_knot, ["3_1", "4_1", "3_1"]))
     >>> [(row.number, row.knot, row.arc_index) for row in rows]
     [(1, '3_1', 5), (2, '4_1', 6)]
     """
@@ -55,8 +56,16 @@ def catalogue_rows(*, knotinfo: bool = False) -> tuple[KnotRow, ...]:
     )
 
 
-def folder_rows(folder: Path) -> tuple[KnotRow, ...]:
-    """The grids in a folder's `.json` and `.csv` files, by name.
+def folder_rows(
+    folder: Path, read: Callable[[Path], NamedDiagram] = read_knot
+) -> tuple[KnotRow, ...]:
+    """The knots in a folder's `.json` and `.csv` files, by name.
+
+    Parameters
+    ----------
+    folder : Path
+    read : callable
+        Reads one of the files.
 
     Raises
     ------
@@ -71,5 +80,5 @@ def folder_rows(folder: Path) -> tuple[KnotRow, ...]:
         raise FileFormatError(f"{folder} has no grids: no file ends in {' or '.join(SUFFIXES)}")
     # The folder's place is no part of a run: it may be copied, and gone on with there.
     return knot_rows(
-        NamedDiagram(path.name, find_knot(str(path)).diagram, f"file {path.name}") for path in paths
+        NamedDiagram(path.name, read(path).diagram, f"file {path.name}") for path in paths
     )

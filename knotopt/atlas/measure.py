@@ -116,8 +116,8 @@ def measure_knot(knot: KnotRow, settings: Settings) -> KnotResult:
     Examples
     --------
     >>> from knotopt.atlas.knot_list import knot_rows
-    >>> from knotopt.catalogue.lookup import find_knot
-    >>> result = measure_knot(knot_rows([find_knot("9_2")])[0], Settings())
+    >>> from knotopt.reading.knot import read_knot
+    >>> result = measure_knot(knot_rows([read_knot("9_2")])[0], Settings())
     >>> shown = ("cut", "lcf_robots", "lcf_open", "opening_robots")
     >>> [[row[name] for name in shown] for row in result.rows[:2]]
     [['L+', 19, True, 5], ['L-', 7, False, 6]]

@@ -71,7 +71,7 @@ def alexander_from_gauss(
         _add(rows[crossing], outgoing, -1)
         strand = after
     minor = [{column: v for column, v in row.items() if column} for row in rows[1:]]
-    return _normalised(_digits(_determinant(minor), bits))
+    return _normalised(kronecker_digits(_determinant(minor), bits))
 
 
 def determinant(polynomial: Sequence[int]) -> int:
@@ -156,7 +156,7 @@ def _bareiss(matrix: list[list[int]]) -> int:
     return matrix[0][0] if matrix else 1
 
 
-def _digits(value: int, bits: int) -> list[int]:
+def kronecker_digits(value: int, bits: int) -> list[int]:
     """Digits of a signed number in base 2 ** bits, each in [-2 ** (bits-1), 2 ** (bits-1))."""
     digits = []
     while value:

@@ -7,12 +7,16 @@ that columns over rows gives KnotInfo's chirality.
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cache
 from importlib.resources import files
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from knotopt.diagram.grid import GridDiagram, Mark
+from knotopt.frames import data_frame
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 @dataclass(frozen=True)
@@ -30,6 +34,12 @@ class PrimeKnot:
     alexander : tuple of int
         Alexander polynomial, constant term first, leading coefficient positive.
     marks : tuple of [column, row]
+    other_names : tuple of str
+        The knot's other names in KnotInfo: that of Hoste and Thistlethwaite (3a_1) where it is not
+        the same, that of Conway's list of 11 crossings (11_1).
+    symmetry : str
+        KnotInfo's word for it: "chiral" (neither its reverse nor its mirror image), "reversible",
+        "positive amphicheiral", "negative amphicheiral", "fully amphicheiral".
     """
 
     name: str
@@ -40,6 +50,13 @@ class PrimeKnot:
     signature: int
     alexander: tuple[int, ...]
     marks: tuple[Mark, ...]
+    other_names: tuple[str, ...]
+    symmetry: str
+
+    @property
+    def is_amphicheiral(self) -> bool:
+        """Whether the knot is its own mirror image, orientations aside."""
+        return "amphicheiral" in self.symmetry
 
     @property
     def diagram(self) -> GridDiagram:
@@ -50,18 +67,38 @@ class PrimeKnot:
         """The entry as a JSON object, as the catalogue's files hold it."""
         facts = {key: value for key, value in vars(self).items() if key != "marks"}
         grid = [list(mark) for mark in self.marks]
-        return facts | {"alexander": list(self.alexander), "grid": grid}
+        lists = {"alexander": list(self.alexander), "other_names": list(self.other_names)}
+        return facts | lists | {"grid": grid}
 
     @classmethod
     def from_json(cls, entry: dict[str, Any]) -> PrimeKnot:
         """The inverse of `to_json`."""
         facts = {key: value for key, value in entry.items() if key != "grid"}
-        facts["alexander"] = tuple(entry["alexander"])
+        for key in ("alexander", "other_names"):
+            facts[key] = tuple(entry[key])
         return cls(**facts, marks=tuple((column, row) for column, row in entry["grid"]))
 
 
+class KnotTable(dict[str, PrimeKnot]):
+    """Knots by name."""
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """A row a knot, a column a fact, as a data frame of pandas.
+
+        Raises
+        ------
+        MissingExtraError
+            pandas is not installed.
+        """
+        columns = [field.name for field in fields(PrimeKnot)]
+        return data_frame(map(vars, self.values()), columns)
+
+    def __repr__(self) -> str:
+        return f"<KnotTable: {len(self)} knots>"
+
+
 @cache
-def shipped_knots() -> dict[str, PrimeKnot]:
+def shipped_knots() -> KnotTable:
     """The 249 prime knots up to 10 crossings by name, in KnotInfo's order.
 
     Examples
@@ -70,7 +107,31 @@ def shipped_knots() -> dict[str, PrimeKnot]:
     >>> len(knots), knots["8_19"].arc_index, knots["4_1"].alexander
     (249, 7, (1, -3, 1))
     """
-    return {entry["name"]: PrimeKnot.from_json(entry) for entry in shipped_json("prime_knots.json")}
+    entries = shipped_json("prime_knots.json")
+    return KnotTable((entry["name"], PrimeKnot.from_json(entry)) for entry in entries)
+
+
+@cache
+def unknot() -> PrimeKnot:
+    """The knot 0_1, on the grid of size 2; it is prime no more than 1 is, and in no list.
+
+    Examples
+    --------
+    >>> unknot().name, unknot().diagram.size
+    ('0_1', 2)
+    """
+    return PrimeKnot(
+        name="0_1",
+        crossing_number=0,
+        arc_index=2,
+        alternating=True,
+        determinant=1,
+        signature=0,
+        alexander=(1,),
+        marks=((1, 1), (1, 2), (2, 1), (2, 2)),
+        other_names=(),
+        symmetry="fully amphicheiral",
+    )
 
 
 def shipped_json(name: str) -> list[dict[str, Any]]:

@@ -11,7 +11,7 @@ import typer
 from typer.core import TyperGroup
 
 from knotopt import __version__
-from knotopt.cli import logs
+from knotopt.cli import logs, reading
 from knotopt.errors import KnotoptError
 
 COMMANDS = {
@@ -34,8 +34,8 @@ COMMANDS = {
 
 HELP = (
     "Smallest robot teams that tie a knot in a cable in midair. "
-    "KNOT is a name (8_19), a row of Table I (3, '7 Var1'), a torus knot 'T(2,7)', "
-    "or a .json or .csv file with a grid diagram."
+    "KNOT is a name (8_19, 'T(2,7)', a row of Table I such as 3 or '7 Var1'), a code (PD, DT, "
+    "Gauss, braid word), a grid diagram, or a file with one of these; - is standard input."
 )
 
 
@@ -52,7 +52,8 @@ class Commands(TyperGroup):
             return None
         module = importlib.import_module(f"knotopt.cli.{COMMANDS[cmd_name][0]}")
         alone = typer.Typer(add_completion=False, rich_markup_mode=None)
-        alone.command(cmd_name)(logs.logged(getattr(module, cmd_name)))
+        command = reading.reading_options(getattr(module, cmd_name))
+        alone.command(cmd_name)(logs.logged(command))
         return typer.main.get_command(alone)
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:  # noqa: ARG002

@@ -18,6 +18,7 @@ EXTRAS = {
     "sim": "mujoco",
     "atlas": "pyarrow",
     "cluster": "distributed",
+    "pandas": "pandas",
 }
 PACKAGES = (
     "knotopt",

@@ -7,14 +7,22 @@ from typing import Annotated
 import typer
 
 from knotopt.cli import options
+from knotopt.cli.completion import among
 from knotopt.supports.registry import FORMULATIONS, find_formulation
 from knotopt.supports.threading import Threading
 
+_NAMES = " or ".join(f"{each.name} ({each.words})" for each in FORMULATIONS.values())
 FormulationOption = Annotated[
-    str,
+    str, typer.Option(metavar="NAME", autocompletion=among(FORMULATIONS), help=f"{_NAMES}.")
+]
+WhichFormulationOption = Annotated[
+    str | None,
     typer.Option(
+        "--formulation",
         metavar="NAME",
-        help=" or ".join(f"{each.name} ({each.words})" for each in FORMULATIONS.values()) + ".",
+        autocompletion=among(FORMULATIONS),
+        help=f"{_NAMES}; by default all that is known of the number of robots is said.",
+        show_default=False,
     ),
 ]
 WITH = {"loops": True, "none": False}
@@ -37,6 +45,7 @@ ThreadingOption = Annotated[
     str | None,
     typer.Option(
         metavar="NAME",
+        autocompletion=among(Threading),
         help=f"What threads a region: {' or '.join(Threading)}; by default "
         + ", ".join(f"{each.threading[0]} for {each.name}" for each in FORMULATIONS.values())
         + ".",

@@ -8,6 +8,7 @@ import typer
 
 from knotopt.cli import options
 from knotopt.cli.printing import print_json, print_table, print_written
+from knotopt.cli.reading import read
 
 if TYPE_CHECKING:
     from knotopt.supports.lcf import LcfResult
@@ -30,11 +31,10 @@ def lcf(
     Example: knotopt lcf '7 Var2' --cut best --plot supports.png
     """
     from knotopt.cable.cut import Cut, crossing_free_cuts
-    from knotopt.catalogue.lookup import find_knot
     from knotopt.cli.drawing import print_supports
     from knotopt.supports.lcf import best_cut, lcf_by_cut
 
-    named = find_knot(knot)
+    named = read(knot)
     if cut == "all":
         if plot is not None:
             options.refuse("--plot", "draws one cut: give --cut best or a cut's name")

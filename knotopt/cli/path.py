@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from knotopt.cli import options
+from knotopt.cli.completion import among
 from knotopt.cli.formulations import FormulationOption, WithOption, check_openness, with_loops
 from knotopt.cli.printing import print_facts, print_json, print_note, print_table, print_written
+from knotopt.cli.reading import read
 from knotopt.path.requirements import PathRequirements
 from knotopt.path.world import World
 from knotopt.supports.requirements import Requirements
@@ -28,7 +30,9 @@ def path(
     method: Annotated[
         str,
         typer.Option(
-            metavar="NAME", help="nlp (the program), relaxation (the paper's springs), or both."
+            metavar="NAME",
+            autocompletion=among(METHODS),
+            help="nlp (the program), relaxation (the paper's springs), or both.",
         ),
     ] = "nlp",
     cut: options.SupportsCutOption = "best",
@@ -91,7 +95,6 @@ def path(
 
     Example: knotopt path 9 --supports lcf --method both --plot path.png
     """
-    from knotopt.catalogue.lookup import find_knot
     from knotopt.path.optimise import optimise_path
     from knotopt.path.relaxation import relaxed_path
     from knotopt.supports.selection import choose_supports
@@ -113,15 +116,16 @@ def path(
     )
     if world is not None:
         asked = world.requirements(asked)
-    named = find_knot(knot)
     check_openness(formulation, r)
-    of_smallest = Requirements(formulation, r, with_loops=with_loops(with_))
-    chosen = choose_supports(named.diagram, supports, cut, of_smallest)
+    of_the_set = Requirements(formulation, r, with_loops=with_loops(with_))
+    limits = options.solver_limits(time_limit)
+    named = read(knot)
+    chosen = choose_supports(named.diagram, supports, cut, of_the_set)
     results: list[PathResult] = []
     if method != "nlp":
         results.append(relaxed_path(chosen.cable, chosen.supports, asked))
     if method != "relaxation":
-        results.append(optimise_path(chosen.cable, chosen.supports, asked, seconds=time_limit))
+        results.append(optimise_path(chosen.cable, chosen.supports, asked, seconds=limits.seconds))
     title = f"{named.name}, cut {chosen.cable.cut}: {chosen.robots} robots ({supports})"
     written = _write(results, title, world, plot, out)
     if as_json:

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from knotopt.document.model import Document
 
-UNBROKEN = 1_000_000  # characters
-NARROWEST = 9  # of a column whose cells are longer [characters]
+LEAST = 9  # of a column of words that are longer [characters]
+BETWEEN = 3  # characters between two columns
 
 
 def print_json(content: Any) -> None:
@@ -21,30 +21,94 @@ def print_json(content: Any) -> None:
 
 
 def print_table(columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
-    """Print a table; numbers stand to the right."""
+    """Print a table; numbers stand to the right.
+
+    Into a pipe or a file, a row is one line. In a terminal that is too narrow, long text breaks
+    into lines between its words; where that is not enough, rows become columns, or columns are
+    printed in several tables, each with the first one. None vanishes, and no number breaks.
+    """
+    words = {True: "yes", False: "no"}
+    cells = [[words[v] if isinstance(v, bool) else str(v) for v in row] for row in rows]
+    by_column = [[column, *(row[k] for row in cells)] for k, column in enumerate(columns)]
+    room = _terminal_width()
+    if room is None:
+        print(_unbroken(by_column))
+        return
+    if _least_width(by_column, room) <= room:
+        _print_grid(by_column, room)
+        return
+    across = [[*line] for line in zip(*by_column, strict=True)]
+    if _least_width(across, room) <= room:
+        _print_grid(across, room, headed=False)
+        return
+    first, *others = by_column
+    while others:
+        taken = 1
+        while taken < len(others) and _least_width([first, *others[: taken + 1]], room) <= room:
+            taken += 1
+        _print_grid([first, *others[:taken]], room)
+        others = others[taken:]
+
+
+def _terminal_width() -> int | None:
+    """Of the terminal that is printed to [characters]; None for a pipe or a file."""
+    from rich.console import Console
+
+    return Console().width if sys.stdout.isatty() else None
+
+
+def _is_number(cell: str) -> bool:
+    return cell.replace(".", "").lstrip("-").isdigit()
+
+
+def _least(column: Sequence[str], room: int) -> int:
+    """The least width of a column: numbers and words stay whole, unless they are very long."""
+    head, *cells = column
+    words = [word for cell in cells for word in ([cell] if _is_number(cell) else cell.split())]
+    longest = max(map(len, [*head.split(), *words]), default=0)
+    return min(longest, max(LEAST, room // 2))
+
+
+def _least_width(by_column: Sequence[Sequence[str]], room: int) -> int:
+    return sum(_least(column, room) + BETWEEN for column in by_column) - BETWEEN + 2
+
+
+def _unbroken(by_column: Sequence[Sequence[str]]) -> str:
+    """Columns, each with its head, a row a line: what `rich` makes of them, but at once."""
+    from rich.cells import cell_len
+
+    aligned = []
+    for head, *cells in by_column:
+        width = max(map(cell_len, [head, *cells]))
+        right = all(map(_is_number, cells))
+        filled = [" " * (width - cell_len(cell)) for cell in [head, *cells]]
+        texts = zip([head, *cells], filled, strict=True)
+        aligned.append([fill + cell if right else cell + fill for cell, fill in texts])
+    head, *rows = (f" {(' ' * BETWEEN).join(line)} " for line in zip(*aligned, strict=True))
+    width = cell_len(head)
+    return "\n".join([" " * width, head, f" {'─' * (width - 2)} ", *rows, " " * width])
+
+
+def _print_grid(by_column: Sequence[Sequence[str]], room: int, *, headed: bool = True) -> None:
+    """Print columns, each with its head, as wide as there is room."""
     from rich import box
     from rich.console import Console
     from rich.table import Table
     from rich.text import Text
 
     # Text, not markup: columns and cells hold [brackets].
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    words = {True: "yes", False: "no"}
-    cells = [[words[v] if isinstance(v, bool) else str(v) for v in row] for row in rows]
-    for index, column in enumerate(columns):
-        numeric = all(row[index].replace(".", "").lstrip("-").isdigit() for row in cells)
-        # In a narrow terminal long cells break into lines; no column vanishes.
-        width = max(map(len, [column, *(row[index] for row in cells)]))
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_header=headed)
+    for column in by_column:
+        head, *cells = column
         table.add_column(
-            Text(column),
-            justify="right" if numeric else "left",
-            min_width=min(width, NARROWEST),
+            Text(head),
+            justify="right" if all(map(_is_number, cells)) else "left",
+            min_width=_least(column, room),
             overflow="fold",
         )
-    for row in cells:
-        table.add_row(*(Text(cell) for cell in row))
-    # Into a pipe or a file, a row is one line.
-    Console(width=None if sys.stdout.isatty() else UNBROKEN).print(table)
+    for row in zip(*(column[headed:] for column in by_column), strict=True):
+        table.add_row(*map(Text, row))
+    Console(width=room).print(table)
 
 
 def print_tables(document: Document) -> None:

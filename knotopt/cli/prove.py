@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from knotopt.cli import options
+from knotopt.cli.completion import among
 from knotopt.cli.formulations import (
     FormulationOption,
     ThreadingOption,
@@ -39,6 +40,7 @@ def prove(
         str | None,
         typer.Option(
             metavar="NAME",
+            autocompletion=among(("refutation", "count", "disjoint loops")),
             help="refutation (by CaDiCaL; the default), count (the checker examines every smaller "
             "set) or, of formulation loops and its default, 'disjoint loops'.",
         ),
@@ -58,13 +60,13 @@ def prove(
     from knotopt.supports.certificate import prove as prove_knot
     from knotopt.supports.registry import find_formulation
 
-    found = options.find_knots(knots, catalogue=catalogue)
     check_openness(formulation, r)
     asked = Requirements(formulation, r, threading, with_loops=with_loops(with_))
     proofs = find_formulation(formulation).proofs
     if method not in (None, *proofs):
         options.refuse("--method", f"expected {' or '.join(proofs)}")
     limits = options.solver_limits(time_limit)
+    found = options.read_knots(knots, catalogue=catalogue)
     settings = [asked.words, asked.threading, str(asked.openness), cut, method]
     header = options.run_header("prove", settings, found)
     proven: list[str] = []

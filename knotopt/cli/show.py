@@ -7,12 +7,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from knotopt.cli.completion import CUTS, among
+from knotopt.cli.formats import WrittenOption, print_form
 from knotopt.cli.options import JsonOption, KnotArgument, PlotOption
 from knotopt.cli.printing import print_facts, print_json, print_written
+from knotopt.cli.reading import read, reading_in_words
 
 if TYPE_CHECKING:
     from knotopt.cable.cable import Cable
-    from knotopt.catalogue.lookup import NamedDiagram
+    from knotopt.reading.record import NamedDiagram
 
 MAX_CROSSINGS = 120  # of an Alexander polynomial computed here: about a second
 
@@ -23,9 +26,11 @@ def show(
         str,
         typer.Option(
             metavar="CUT",
+            autocompletion=among(CUTS),
             help="Where the knot is opened: L+ L- R+ R- B+ B- T+ T-, or col3+, row5-.",
         ),
     ] = "L+",
+    written: WrittenOption = None,
     plot: PlotOption = None,
     as_json: JsonOption = False,
 ) -> None:
@@ -33,13 +38,15 @@ def show(
 
     Example: knotopt show 8_19 --plot 8_19.png
     """
+    if written is not None:
+        print_form(knot, written, {"--plot": plot, "--json": as_json})
+        return
     from knotopt.cable.alexander import alexander_polynomial
     from knotopt.cable.cable import Cable
-    from knotopt.catalogue.lookup import find_knot
     from knotopt.cli.drawing import draw_text
     from knotopt.diagram.simplify import simplify
 
-    named = find_knot(knot)
+    named = read(knot, says=True)
     cable = Cable(named.diagram, cut)
     # Of a diagram with many crossings, the polynomial is computed on a simpler one of the knot.
     simplest = Cable(simplify(named.diagram), "L+")
@@ -70,6 +77,8 @@ def _json(
     return {
         "knot": named.name,
         "source": named.source,
+        "form": named.form,
+        "notes": list(named.notes),
         "grid_size": named.diagram.size,
         "smallest_grid_found": simplest.diagram.size,
         "cut": str(cable.cut),
@@ -120,8 +129,10 @@ def _facts(content: dict[str, Any], fewest: int) -> list[tuple[str, Any]]:
         + (" (twist)" if each["is_twist"] else "")
         for each in content["staircases"]
     ]
+    form, notes = content["form"], tuple(content["notes"])
     return [
         ("knot", f"{content['knot']} ({content['source']})"),
+        *([] if form == "name" else [("read as", reading_in_words(form, notes))]),
         ("grid size", f"{content['grid_size']} (smallest found: {content['smallest_grid_found']})"),
         ("cut", f"{content['cut']} of {' '.join(content['crossing_free_cuts'])}"),
         ("turning points", content["turning_points"]),

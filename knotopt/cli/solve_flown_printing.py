@@ -9,14 +9,14 @@ from knotopt.cli.printing import print_facts, print_json, print_note, print_tabl
 from knotopt.cli.solve_printing import search_json, show_search
 
 if TYPE_CHECKING:
-    from knotopt.catalogue.lookup import NamedDiagram
+    from knotopt.reading.record import NamedDiagram
     from knotopt.rehearsal.cut_off import CutOff, FlownResult
 
 
 def flown_json(named: NamedDiagram, flown: FlownResult) -> dict[str, Any]:
     """What `--json` says."""
     tied = flown.tied.flights if flown.tied else ()
-    content = search_json(named.name, flown.search, None)
+    content = search_json(named.name, flown.search)
     for key in ("proven", "proven_over_cuts"):  # smaller sets that were cut off are open as well
         content[key] = content[key] and not flown.smaller_cut_off
     return content | {

@@ -5,13 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from knotopt.cli.printing import print_facts, print_json, print_table
+from knotopt.cli.solve_diagrams import diagrams_in_words
+from knotopt.cli.solve_laid_printing import laid_facts, laid_json
 from knotopt.supports.registry import find_formulation
 
 if TYPE_CHECKING:
     from formulations.solution import Enumeration
+    from knotopt.supports.diagram_search import DiagramSearch
     from knotopt.supports.minimal import MinimalSupports
     from knotopt.supports.requirements import Requirements
-    from knotopt.supports.search import CutOutcome, CutSearch, DiagramSearch
+    from knotopt.supports.search import CutOutcome, CutSearch
 
 
 def supports_json(name: str, result: MinimalSupports) -> dict[str, Any]:
@@ -50,28 +53,31 @@ def supports_json(name: str, result: MinimalSupports) -> dict[str, Any]:
     }
 
 
-def search_json(
-    name: str, search: CutSearch, diagram_search: DiagramSearch | None = None
-) -> dict[str, Any]:
-    """What `--json` says of a search over cuts, perhaps of several diagrams."""
+def search_json(name: str, search: CutSearch) -> dict[str, Any]:
+    """What `--json` says of a search over cuts."""
     cable = search.best.cable
-    return supports_json(name, search.best) | {
-        "proven_over_cuts": search.is_proven,
-        "status_over_cuts": str(search.status),
-        "bound_over_cuts": search.bound,
-        "cuts": [
-            {
-                "cut": str(each.cut),
-                "robots_after": each.robots,
-                "bound": each.bound,
-                "status": str(each.status),
-            }
-            for each in search.outcomes
-        ],
-        "diagrams_tried": diagram_search.tried if diagram_search else 1,
-        "grid": [list(mark) for mark in cable.diagram.marks],
-        "path": [list(mark) for mark in cable.path],
-    }
+    laid = {} if search.cut_off is None else {"laid": laid_json(search)}
+    return (
+        supports_json(name, search.best)
+        | laid
+        | {
+            "proven_over_cuts": search.is_proven,
+            "status_over_cuts": str(search.status),
+            "bound_over_cuts": search.bound,
+            "cuts": [
+                {
+                    "cut": str(each.cut),
+                    "robots_after": each.robots,
+                    "bound": each.bound,
+                    "status": str(each.status),
+                }
+                for each in search.outcomes
+            ],
+            "diagrams_tried": 1,
+            "grid": [list(mark) for mark in cable.diagram.marks],
+            "path": [list(mark) for mark in cable.path],
+        }
+    )
 
 
 def show_sets(sets: Enumeration, count: int) -> None:
@@ -84,7 +90,10 @@ def show_sets(sets: Enumeration, count: int) -> None:
 
 
 def show_search(
-    title: str, search: CutSearch, diagram_search: DiagramSearch | None = None, cut_off: int = 0
+    title: str,
+    search: CutSearch,
+    diagram_search: DiagramSearch | None = None,
+    cut_off: int = 0,
 ) -> None:
     """Print the best cut's set; `cut_off` says how many smaller ones were ruled out by hand."""
     from knotopt.cli.drawing import print_supports
@@ -96,12 +105,10 @@ def show_search(
     print_supports(title, result)
     print()
     facts = _facts(search, cut_off)
+    if search.cut_off is not None:
+        facts += laid_facts(search)
     if diagram_search is not None:
-        words = (
-            f"best of {diagram_search.tried} found by translations and commutations, "
-            f"seed {diagram_search.seed}; others may do better"
-        )
-        facts.insert(1, ("diagrams", words))
+        facts.insert(1, ("diagrams", diagrams_in_words(diagram_search)))
     print_facts(facts)
     if len(search.outcomes) > 1:
         cells = (_outcome_cells(outcome, result.robots) for outcome in search.outcomes)
@@ -192,7 +199,8 @@ def _proof(search: CutSearch) -> str:
         return "no: stopped at a limit"
     if result.robots == 2:
         return "the two lifting robots are enough"
-    return f"no set of {result.robots - 1} robots is {rules.adjective} {scope}"
+    laid = "" if search.cut_off is None else " and lays the knot"
+    return f"no set of {result.robots - 1} robots is {rules.adjective}{laid} {scope}"
 
 
 def _show_failure(title: str, search: CutSearch) -> None:
@@ -204,6 +212,8 @@ def _show_failure(title: str, search: CutSearch) -> None:
         return
     where = f"cut {cut}" if len(search.outcomes) == 1 else f"any of {len(search.outcomes)} cuts"
     print(f"{title}: no set of supports does what is asked on {where}.")
+    if not result.conflict:  # sets there were, but none lays the knot
+        return
     smallest = ", while any one of them can be left out" if result.conflict_is_smallest else ""
     print(f"On cut {cut} these cannot be met together{smallest}:")
     for family, origin in result.conflict:

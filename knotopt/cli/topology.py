@@ -6,13 +6,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from knotopt.cli.completion import CUTS, among, knot_names
 from knotopt.cli.options import JsonOption, PlotOption, check_choice, refuse
 from knotopt.cli.printing import print_facts, print_json, print_table, print_written
+from knotopt.cli.reading import asked, reading_in_words
 
 if TYPE_CHECKING:
     from knotopt.flight.leader_plan import LeaderFaces
-    from knotopt.topology.goals import Goal
+    from knotopt.reading.goal import Goal
     from knotopt.topology.plan import Plan, PlanGraph
+
+MOST_PLANS = 1_000_000  # that can be listed: a gigabyte
 
 
 def topology(
@@ -20,14 +24,16 @@ def topology(
         str,
         typer.Argument(
             metavar="KNOT",
-            help="As for the other commands; or a .json, .csv or .txt file with a state's matrix, "
-            "or a Gauss code, 'U1+ O2+ U3+ O1+ U2+ O3+', or a .txt file with one.",
+            autocompletion=knot_names,
+            help="As for the other commands; or the state of a rope: its matrix, or its signed "
+            "Gauss code 'U1+ O2+ U3+ O1+ U2+ O3+'; or a file with one.",
         ),
     ],
     cut: Annotated[
         str | None,
         typer.Option(
             metavar="CUT",
+            autocompletion=among(CUTS),
             help="Where a knot's diagram is opened: L+ (by default) L- R+ R- B+ B- T+ T-, or "
             "col3+, row5-.",
         ),
@@ -36,6 +42,7 @@ def topology(
         str,
         typer.Option(
             metavar="NAME",
+            autocompletion=among(("one", "mirror", "orbit")),
             help="one (the state itself), mirror (its mirror image too) or orbit (the reverses "
             "as well).",
         ),
@@ -47,6 +54,7 @@ def topology(
         str,
         typer.Option(
             metavar="NAME",
+            autocompletion=among(("paper", "public", "any")),
             help="Which R2 there are: paper (those its parameters tell apart), public (as in the "
             "authors' code) or any.",
         ),
@@ -55,7 +63,10 @@ def topology(
         bool, typer.Option("--shortest", help="Only plans with the fewest actions.")
     ] = False,
     plans: Annotated[
-        int, typer.Option(help="How many plans are listed and drawn.", min=0, metavar="K")
+        int,
+        typer.Option(
+            help="How many plans are listed and drawn.", min=0, max=MOST_PLANS, metavar="K"
+        ),
     ] = 10,
     plot: PlotOption = None,
     as_json: JsonOption = False,
@@ -65,7 +76,7 @@ def topology(
     Exit status 1 if there is none. Example: knotopt topology 3_1 --plot plans.png
     """
     from knotopt.flight.leader_plan import laid_plan, leader_faces
-    from knotopt.topology.goals import GoalSet, read_goal
+    from knotopt.reading.goal import GoalSet, read_goal
     from knotopt.topology.legal import R2Rule
     from knotopt.topology.plan import plan_graph
 
@@ -73,7 +84,7 @@ def topology(
     check_choice("--rule", rule, R2Rule)
     if plot is not None and plans == 0:
         refuse("--plans", "is at least 1 with --plot")
-    wanted = read_goal(goal, cut, goals)
+    wanted = read_goal(goal, cut, goals, **asked())
     graph = plan_graph(wanted.states, read_goal(start).states[0], rule, fewest=shortest)
     listed = list(graph.plans(plans))
     flown = _from_start(laid_plan(wanted.states[0]), graph)
@@ -112,6 +123,7 @@ def _show(
     where = f", cut {goal.cable.cut}" if goal.cable is not None else ""
     facts: list[tuple[str, Any]] = [
         ("goal", f"{goal.name} ({goal.source}){where}"),
+        *([("read as", reading_in_words(goal.form, goal.notes))] if goal.notes else []),
         ("state", state),
         ("crossings", state.crossings),
         ("canonical", "this state" if canonical == state else canonical),
@@ -170,6 +182,8 @@ def _json(
     return {
         "goal": goal.name,
         "source": goal.source,
+        "form": goal.form,
+        "notes": list(goal.notes),
         "cut": None if goal.cable is None else str(goal.cable.cut),
         "state": str(state),
         "matrix": state.matrix.tolist(),

@@ -18,12 +18,13 @@ from numpy.typing import NDArray
 
 from knotopt.arrays import BoolArray
 from knotopt.errors import GridError
+from knotopt.showing import Shown
 
 Mark = tuple[int, int]  # [column, row], 1-based
 
 
 @dataclass(frozen=True)
-class GridDiagram:
+class GridDiagram(Shown):
     """An oriented grid diagram of one knot.
 
     Every column and every row holds one -1 and one +1. The knot runs along each column from its
@@ -212,6 +213,14 @@ class GridDiagram:
     def reversed(self) -> GridDiagram:
         """The same diagram with the knot's orientation reversed (A becomes -A)."""
         return GridDiagram(self.plus, self.minus)
+
+    @property
+    def mirrored(self) -> GridDiagram:
+        """The knot's mirror image: the rows in reverse order, columns over rows as before."""
+        above = self.size + 1
+        return GridDiagram(
+            tuple(above - row for row in self.minus), tuple(above - row for row in self.plus)
+        )
 
     def __str__(self) -> str:
         return "\n".join(" ".join(f"{int(entry):2d}" for entry in line) for line in self.matrix)

@@ -337,8 +337,8 @@ def plan_flight(
 
     Examples
     --------
-    >>> from knotopt.catalogue.lookup import find_knot
-    >>> cable = Cable(find_knot("3").diagram, "L+")
+    >>> from knotopt.reading.knot import read_knot
+    >>> cable = Cable(read_knot("3").diagram, "L+")
     >>> plan = plan_flight("3_1", cable, (3, 4, 6), schedule="fixed")
     >>> [crossing.name for crossing in plan.crossings]
     ['span 4 over span 1', 'span 4 under span 1', 'span 4 over span 2']

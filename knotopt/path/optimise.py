@@ -120,8 +120,8 @@ def optimise_path(
 
     Examples
     --------
-    >>> from knotopt.catalogue.lookup import find_knot
-    >>> result = optimise_path(Cable(find_knot("3").diagram, "L+"), (3, 4, 6))
+    >>> from knotopt.reading.knot import read_knot
+    >>> result = optimise_path(Cable(read_knot("3").diagram, "L+"), (3, 4, 6))
     >>> result.status, result.report.same_diagram, result.report.same_knot
     (<PathStatus.SOLVED: 'solved'>, True, True)
     >>> result.stretch < 1.2

@@ -181,8 +181,8 @@ def relaxed_path(
 
     Examples
     --------
-    >>> from knotopt.catalogue.lookup import find_knot
-    >>> result = relaxed_path(Cable(find_knot("3").diagram, "L+"), (3, 4, 6))
+    >>> from knotopt.reading.knot import read_knot
+    >>> result = relaxed_path(Cable(read_knot("3").diagram, "L+"), (3, 4, 6))
     >>> result.method, result.status
     ('relaxation', <PathStatus.SOLVED: 'solved'>)
     """

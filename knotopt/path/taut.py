@@ -41,8 +41,8 @@ def taut_string(cable: Cable, supports: tuple[int, ...]) -> list[FloatArray]:
 
     Examples
     --------
-    >>> from knotopt.catalogue.lookup import find_knot
-    >>> cable = Cable(find_knot("3").diagram, "L+")
+    >>> from knotopt.reading.knot import read_knot
+    >>> cable = Cable(read_knot("3").diagram, "L+")
     >>> [span.tolist() for span in taut_string(cable, ())]
     [[[1.0, 4.0], [1.0, 1.0]]]
     """

@@ -35,7 +35,7 @@ from knotopt.verify.definition import OpeningReport
 SMALLEST = 1e-9  # squared openness that any opening at all exceeds [grid steps^2]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class MinimalSupports(SupportSet):
     """The smallest set of supports found on one cable, and how sure that is.
 
@@ -79,6 +79,14 @@ class MinimalSupports(SupportSet):
     def cable(self) -> Cable:
         """The cable the supports belong to."""
         return self.lcf.cable
+
+    @property
+    def in_words(self) -> str:
+        """Formulation, robots, and whether a smaller set is excluded."""
+        asked = f"{self.requirements.formulation}, "
+        if not self.found:
+            return f"{asked}cut {self.cable.cut}, no set found: {self.solution.status}"
+        return f"{asked}{super().in_words}, {self.solution.status}"
 
     @property
     def is_proven(self) -> bool:
@@ -167,8 +175,8 @@ def minimal_supports(
 
     Examples
     --------
-    >>> from knotopt.catalogue.lookup import find_knot
-    >>> best = minimal_supports(Cable(find_knot("5").diagram, "L+"))
+    >>> from knotopt.reading.knot import read_knot
+    >>> best = minimal_supports(Cable(read_knot("5").diagram, "L+"))
     >>> best.robots, best.lcf.robots, best.lcf_report.is_open, best.report.is_open
     (6, 5, False, True)
     >>> best.solution.status, best.solution.bound, best.placed_supports

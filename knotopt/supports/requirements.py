@@ -13,6 +13,8 @@ from knotopt.supports.threading import Threading
 if TYPE_CHECKING:
     from knotopt.supports.formulation import Formulation
 
+MOST_ROBOTS = 1_000_000
+
 
 @dataclass(frozen=True)
 class Requirements:
@@ -44,6 +46,8 @@ class Requirements:
     excluded : tuple of tuple of int
         Sets of supports, without p_1 and p_n, that are not the answer; sets that contain one, or
         are part of one, still may be.
+    clauses : tuple of tuple of int
+        Of each, one literal at least holds: +k, turning point k carries a robot; -k, it does not.
     max_robots : int, optional
         At most so many robots, the two lifting ones included; the smallest opening is then
         maximised instead of the number of robots minimised.
@@ -73,6 +77,7 @@ class Requirements:
     forbidden: tuple[int, ...] = ()
     forced: tuple[int, ...] = ()
     excluded: tuple[tuple[int, ...], ...] = ()
+    clauses: tuple[tuple[int, ...], ...] = ()
     max_robots: int | None = None
 
     def __init__(
@@ -88,6 +93,7 @@ class Requirements:
         forbidden: tuple[int, ...] = (),
         forced: tuple[int, ...] = (),
         excluded: tuple[tuple[int, ...], ...] = (),
+        clauses: tuple[tuple[int, ...], ...] = (),
         max_robots: int | None = None,
     ) -> None:
         if openness is not None and max_robots is not None:
@@ -109,17 +115,20 @@ class Requirements:
             "forbidden": tuple(sorted(set(forbidden))),
             "forced": tuple(sorted(set(forced))),
             "excluded": tuple(sorted({tuple(sorted(set(each))) for each in excluded})),
+            "clauses": tuple(dict.fromkeys(tuple(each) for each in clauses)),
             "max_robots": max_robots,
         }
         for name, value in fields.items():
             object.__setattr__(self, name, value)
-        points = (*self.forced, *self.forbidden, *chain(*self.excluded))
+        points = (*self.forced, *self.forbidden, *chain(*self.excluded, *self.clauses))
         for number in (*points, *([max_robots] if max_robots else [])):
             if not isinstance(number, int) or isinstance(number, bool):
                 raise RequirementError(f"turning points and robots are counted, not {number!r}")
         for point in self.forced:
             if point in self.forbidden:
                 raise RequirementError(f"p{point} is both forced and forbidden")
+        if max_robots is not None and max_robots > MOST_ROBOTS:
+            raise RequirementError(f"at most {MOST_ROBOTS} robots are counted, not {max_robots}")
         if max_robots is not None and max_robots < 2:
             raise RequirementError(f"two robots hold the cable's ends; at most {max_robots} cannot")
 
@@ -136,7 +145,8 @@ class Requirements:
         RequirementError
             One does not, or an end of the cable is to have no robot.
         """
-        for point in (*self.forced, *self.forbidden, *chain(*self.excluded)):
+        literals = chain(*self.clauses)
+        for point in (*self.forced, *self.forbidden, *chain(*self.excluded), *map(abs, literals)):
             if not 1 <= point <= count:
                 raise RequirementError(f"p{point}: the cable's turning points are p1 to p{count}")
         for end in (1, count):

@@ -22,7 +22,7 @@ from knotopt.supports.support_set import SupportSet
 CHOICES = ("milp", "lcf", "all")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class GivenSupports(SupportSet):
     """Supports that nobody computed here: from a file, or all turning points."""
 
@@ -59,8 +59,8 @@ def choose_supports(
 
     Examples
     --------
-    >>> from knotopt.catalogue.lookup import find_knot
-    >>> diagram = find_knot("3").diagram
+    >>> from knotopt.reading.knot import read_knot
+    >>> diagram = read_knot("3").diagram
     >>> [choose_supports(diagram, choice, "L+").robots for choice in CHOICES]
     [5, 5, 10]
     """
@@ -103,8 +103,8 @@ def equally_small(
 
     Examples
     --------
-    >>> from knotopt.catalogue.lookup import find_knot
-    >>> [str(each.cable.cut) for each in equally_small(find_knot("4").diagram, "lcf")]
+    >>> from knotopt.reading.knot import read_knot
+    >>> [str(each.cable.cut) for each in equally_small(read_knot("4").diagram, "lcf")]
     ['L+', 'R-', 'B+', 'T-']
     """
     first = choose_supports(diagram, choice, cut, requirements)

@@ -40,6 +40,7 @@ def compile_team(regions: Regions, requirements: Requirements) -> Team:
         forbidden=requirements.forbidden,
         forced=requirements.forced,
         excluded=requirements.excluded,
+        clauses=requirements.clauses,
         at_most=requirements.max_robots,
     )
 

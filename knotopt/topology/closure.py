@@ -9,7 +9,7 @@ from __future__ import annotations
 from bisect import bisect
 from collections import deque
 
-from knotopt.cable.notation import pd_from_gauss
+from knotopt.planar.gauss import from_visits
 from knotopt.topology.faces import dart_faces
 from knotopt.topology.state import RopeState
 
@@ -65,14 +65,14 @@ def closed_gauss(state: RopeState) -> tuple[list[int], list[bool], list[int]]:
 
 
 def closed_pd(state: RopeState) -> tuple[tuple[int, int, int, int], ...]:
-    """Planar diagram code of the closed knot, in the convention of `knotopt.cable.notation`.
+    """Planar diagram code of the closed knot, edges counted from 1.
 
     Examples
     --------
     >>> closed_pd(RopeState.from_gauss("O1+ U2+ O3+ U1+ O2+ U3+"))
     ((4, 2, 5, 1), (2, 6, 3, 5), (6, 4, 1, 3))
     """
-    return pd_from_gauss(*closed_gauss(state))
+    return from_visits(*closed_gauss(state)).pd_code
 
 
 def _way_between_ends(state: RopeState) -> list[tuple[int, bool]]:

@@ -18,6 +18,7 @@ from functools import cached_property
 from itertools import islice
 from typing import TYPE_CHECKING
 
+from knotopt.showing import ShownShort, plural
 from knotopt.topology.actions import Action, sort_key
 from knotopt.topology.legal import R2Rule
 from knotopt.topology.state import TRIVIAL, RopeState
@@ -49,8 +50,8 @@ class Plan:
         return " ".join(map(str, self.actions))
 
 
-@dataclass(frozen=True, eq=False)
-class PlanGraph:
+@dataclass(frozen=True, eq=False, repr=False)
+class PlanGraph(ShownShort):
     """The states and actions of all plans from a start to any of some goals.
 
     Attributes
@@ -89,6 +90,11 @@ class PlanGraph:
     def action_count(self) -> int:
         """Number of edges: of pairs of a state and an action there."""
         return sum(map(len, self.steps.values()))
+
+    @property
+    def in_words(self) -> str:
+        """How many plans and states there are."""
+        return f"{plural(self.plan_count, 'plan')}, {plural(len(self.states), 'state')}"
 
     @cached_property
     def counts(self) -> dict[int, int]:

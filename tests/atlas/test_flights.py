@@ -22,10 +22,10 @@ from knotopt.atlas.run import run_atlas
 from knotopt.atlas.schema import File, Settings
 from knotopt.atlas.store import read_manifest, read_rows
 from knotopt.cable.cable import Cable
-from knotopt.catalogue.lookup import find_knot
 from knotopt.document.columns import Row
 from knotopt.document.markdown import markdown
 from knotopt.errors import MissingExtraError, RequirementError
+from knotopt.reading.knot import read_knot
 from knotopt.sim.judge import Outcome, Verdict
 from knotopt.sim.trials import Flight, wilson_interval
 from knotopt.supports.lcf import lcf
@@ -77,7 +77,7 @@ def results(folder: Path) -> Results:
 
 
 def test_a_set_that_ties(monkeypatch: pytest.MonkeyPatch) -> None:
-    flown, seconds = fly_set("3_1", Cable(find_knot("3_1").diagram, "L-"), (3, 4, 5))
+    flown, seconds = fly_set("3_1", Cable(read_knot("3_1").diagram, "L-"), (3, 4, 5))
     assert isinstance(flown, Flight) and min(seconds) > 0
     row = only_row(monkeypatch, flown)
     assert (row["planned"], row["tied"], row["outcome"]) == (True, True, "tied")
@@ -96,7 +96,7 @@ def test_a_set_without_a_plan(monkeypatch: pytest.MonkeyPatch) -> None:
         raise RequirementError("no way for span 4")
 
     monkeypatch.setattr(flights, "plan_flight", refuse)
-    flown, seconds = fly_set("3_1", Cable(find_knot("3_1").diagram, "L-"), (3,))
+    flown, seconds = fly_set("3_1", Cable(read_knot("3_1").diagram, "L-"), (3,))
     assert flown == "no way for span 4" and seconds[0] > seconds[1] == 0
     row = only_row(monkeypatch, flown)
     assert (row["planned"], row["tied"], row["why"]) == (False, False, "no way for span 4")

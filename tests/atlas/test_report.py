@@ -34,10 +34,10 @@ from knotopt.atlas.schema import File, Settings
 from knotopt.atlas.store import read_rows
 from knotopt.cable.cut import OUTER_CUTS
 from knotopt.catalogue.knotinfo import is_installed
-from knotopt.catalogue.lookup import find_knot
 from knotopt.document.markdown import markdown
 from knotopt.document.model import Table
 from knotopt.errors import OutputError
+from knotopt.reading.knot import read_knot
 from knotopt.verify.opening import check_opening
 from tests.helpers.typesetting import typeset
 
@@ -45,7 +45,7 @@ NAMES = ("3_1", "5_1", "5_2", "8_1", "8_19", "8_20", "8_21")
 
 
 def run(folder: Path, names: tuple[str, ...], settings: Settings | None = None) -> Results:
-    listed = knot_rows(map(find_knot, names))
+    listed = knot_rows(map(read_knot, names))
     run_atlas(folder, listed, settings or Settings(check=0), Local())
     return read_results(folder)
 
@@ -170,7 +170,7 @@ def test_torus_and_twist_knots_by_their_two_bridge_notation() -> None:
             assert int(row["arc_index"]) == int(row["crossing_number"]) + 2
         else:
             assert int(row["arc_index"]) <= int(row["crossing_number"])
-    known = invariants.invariants(knot_rows(map(find_knot, ("3_1", "10_11", "T(2,5)"))))
+    known = invariants.invariants(knot_rows(map(read_knot, ("3_1", "10_11", "T(2,5)"))))
     assert known["3_1"] == Invariants(2, 2, 1, True)
     assert known["10_11"].unknotting_number is None  # two or three
     assert set(known) == {"3_1", "10_11"}

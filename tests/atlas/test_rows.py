@@ -20,9 +20,9 @@ from knotopt.atlas.schema import MANIFEST, PARTS, File, KnotRow, Manifest, Setti
 from knotopt.atlas.store import read_manifest, read_rows
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import OUTER_CUTS
-from knotopt.catalogue.lookup import find_knot
 from knotopt.document.columns import names
 from knotopt.errors import FileFormatError, OutputError, RequirementError
+from knotopt.reading.knot import read_knot
 from knotopt.supports.registry import FORMULATIONS
 from knotopt.supports.search import best_supports
 from knotopt.supports.span import SPAN
@@ -252,7 +252,7 @@ def test_lists(tmp_path: Path) -> None:
         (1, "a.csv", "file a.csv"),
         (2, "b.json", "file b.json"),
     ]
-    assert {row.diagram for row in rows} == {find_knot("3_1").diagram}
+    assert {row.diagram for row in rows} == {read_knot("3_1").diagram}
     (tmp_path / "c.json").write_text("[[1, 2]]")
     with pytest.raises(FileFormatError, match=r"c\.json"):
         folder_rows(tmp_path)

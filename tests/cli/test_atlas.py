@@ -12,7 +12,7 @@ import pytest
 
 from knotopt.atlas.schema import File
 from knotopt.atlas.store import read_rows
-from knotopt.catalogue.lookup import find_knot
+from knotopt.reading.knot import read_knot
 from tests.helpers.atlas_process import ended, parts, same_results, start, wait_for_parts
 from tests.helpers.command_line import Cli
 
@@ -86,7 +86,7 @@ def test_summary(cli: Cli, tmp_path: Path) -> None:
 
 
 def test_grids_of_a_folder(cli: Cli, tmp_path: Path) -> None:
-    marks = [list(mark) for mark in find_knot("T(2,5)").diagram.marks]
+    marks = [list(mark) for mark in read_knot("T(2,5)").diagram.marks]
     (tmp_path / "mine.json").write_text(json.dumps({"grid": marks}))
     status, _, errors = cli("atlas", tmp_path / "run", "--grids", tmp_path, "--jobs", 1, "--r", 1)
     assert (status, errors) == (0, "")

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from matplotlib.collections import LineCollection
 
-from knotopt import best_cut, find_knot, optimise_path, relax, relaxed_path
+from knotopt import best_cut, optimise_path, read, relax, relaxed_path
 from knotopt.plot.path import draw_heights, draw_plan
 from knotopt.plot.path_figures import braid_figure, path_figure, relaxation_figure
 from tests.helpers.command_line import Cli
@@ -50,7 +50,11 @@ def test_path_in_metres(cli: Cli) -> None:
 
 
 def test_path_takes_what_solve_and_lcf_print(cli: Cli, tmp_path: Path) -> None:
-    for command in (("solve", "5"), ("lcf", "5", "--cut", "R-"), ("path", "5", "--cut", "T+")):
+    for command in (
+        ("solve", "5", "--formulation", "opening"),
+        ("lcf", "5", "--cut", "R-"),
+        ("path", "5", "--cut", "T+"),
+    ):
         file = tmp_path / "set.json"
         content = cli.json(*command)
         file.write_text(json.dumps(content))
@@ -127,7 +131,7 @@ def test_what_is_not_met_is_said_and_the_exit_status_is_1(cli: Cli) -> None:
 
 @pytest.fixture(scope="module")
 def paths() -> Any:
-    chosen = best_cut(find_knot("4").diagram)
+    chosen = best_cut(read("4").diagram)
     ours = optimise_path(chosen.cable, chosen.supports)
     return relaxed_path(chosen.cable, chosen.supports), ours
 

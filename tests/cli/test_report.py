@@ -18,10 +18,10 @@ def run_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
     from knotopt.atlas.knot_list import knot_rows
     from knotopt.atlas.run import run_atlas
     from knotopt.atlas.schema import Settings
-    from knotopt.catalogue.lookup import find_knot
+    from knotopt.reading.knot import read_knot
 
     folder: Path = tmp_path_factory.mktemp("atlas") / "run"
-    run_atlas(folder, knot_rows(map(find_knot, ("3_1", "4_1"))), Settings(check=0), Local())
+    run_atlas(folder, knot_rows(map(read_knot, ("3_1", "4_1"))), Settings(check=0), Local())
     return folder
 
 

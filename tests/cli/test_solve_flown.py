@@ -167,7 +167,7 @@ def test_no_set_at_all(cli: Cli, flights: Flights) -> None:
     [
         (("--cut", "all"), 2, "give --cut best or a cut's name"),
         (("--all",), 2, "does not go with --verify-physics"),
-        (("--diagrams", "3"), 2, "does not go with --verify-physics"),
+        (("--diagrams",), 2, "does not go with --verify-physics"),
         (("--trials", "0"), 1, "disturbed flights are at least 1, not 0"),
         (("--noise", "-1"), 1, "noise is a number of metres from 0 up, not -1"),
         (("--physics-budget", "0"), 1, "time for flights must be positive"),
@@ -196,7 +196,7 @@ def test_what_does_not_go_together(
     [("--noise", "1"), ("--trials", "1"), ("--physics-budget", "1"), ("--max-cut", "1")],
 )
 def test_options_of_flights_that_are_not_flown(cli: Cli, option: str, value: str) -> None:
-    status, _, err = cli("solve", "3", option, value)
+    status, _, err = cli("solve", "3", "--formulation", "opening", option, value)
     assert status == 2 and "goes with --verify-physics" in words(err) and option in err
 
 

@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 from knotopt.diagram.families import random_knot
+from knotopt.reading.goal import GoalSet
 from knotopt.topology.actions import parse_action
-from knotopt.topology.goals import GoalSet
 from knotopt.topology.legal import R2Rule, apply
 from knotopt.topology.state import TRIVIAL, RopeState
 from tests.helpers.command_line import Cli
@@ -152,7 +152,7 @@ def test_pictures_without_matplotlib(cli: Cli) -> None:
         (("T(2,4)",), 1, "is a link of 2 components"),
         (("U1+ O2+ U1+ O2+",), 1, "visits 1 and 3 of one crossing are both under"),
         (("O1+ O2+ U1+ U2+",), 1, "visit 4: a rope in the plane cannot come back to visit 2"),
-        (("missing.txt",), 1, "missing.txt: cannot be read: No such file"),
+        (("missing.txt",), 1, "cannot read missing.txt: No such file"),
         (("missing.json",), 1, "cannot read missing.json"),
         ((OVERHAND, "--cut", "L+"), 1, "which has no grid to cut at L+"),
         (("3_1", "--cut", "col3+"), 1, "carries 1 crossing"),

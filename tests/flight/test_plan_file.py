@@ -17,11 +17,11 @@ from hypothesis import strategies as st
 
 from knotopt.cable.cable import Cable
 from knotopt.diagram.families import torus_knot
-from knotopt.diagram.reading import read_grid
 from knotopt.errors import FileFormatError, RequirementError
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan, PlannedCrossing
 from knotopt.flight.plan_file import check_plan, plan_to_json, read_plan
+from knotopt.reading.knot import read_knot
 from tests.helpers.strategies import cables
 
 
@@ -110,7 +110,7 @@ def test_what_is_read_is_what_was_written(plan: FlightPlan) -> None:
 def test_the_grid_in_a_plan_is_a_diagram_to_everything_else(tmp_path: Path) -> None:
     path = tmp_path / "plan.json"
     path.write_text(plan_to_json(small_plan()), encoding="utf-8")
-    assert read_grid(path).marks == small_plan().cable.diagram.marks
+    assert read_knot(path).diagram.marks == small_plan().cable.diagram.marks
 
 
 def test_positions_are_rounded_to_a_hundredth_of_a_millimetre() -> None:

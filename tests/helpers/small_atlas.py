@@ -9,9 +9,9 @@ from typing import Any
 from knotopt.atlas.knot_list import knot_rows
 from knotopt.atlas.measure import KnotResult
 from knotopt.atlas.schema import Settings
-from knotopt.catalogue.lookup import find_knot
+from knotopt.reading.knot import read_knot
 
-LIST = knot_rows(map(find_knot, ("3_1", "4_1", "5_1", "5_2", "T(2,7)")))
+LIST = knot_rows(map(read_knot, ("3_1", "4_1", "5_1", "5_2", "T(2,7)")))
 SETTINGS = Settings(check=1)
 
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 
-from knotopt import Cable, find_knot
+from knotopt import Cable, read
 from knotopt.errors import RequirementError
 from knotopt.flight.request import FlightRequest
 from knotopt.mission.alternatives import first_good, plan_first
@@ -15,7 +15,7 @@ from knotopt.supports.lcf import lcf
 from knotopt.supports.requirements import Requirements
 from knotopt.supports.selection import GivenSupports, equally_small
 
-DIAGRAM = find_knot("4").diagram
+DIAGRAM = read("4").diagram
 
 
 @dataclass(frozen=True)

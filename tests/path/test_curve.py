@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from knotopt import Curve, PathRequirements, World, best_cut, find_knot, optimise_path
+from knotopt import Curve, PathRequirements, World, best_cut, optimise_path, read
 from knotopt.errors import RequirementError
 from knotopt.path.heights import height_arcs
 
@@ -51,7 +51,7 @@ def test_second_derivatives_are_continuous() -> None:
 
 
 def test_metres() -> None:
-    chosen = best_cut(find_knot("3").diagram)
+    chosen = best_cut(read("3").diagram)
     world = World(step=0.5, altitude=2.0, floor=1.0, ceiling=3.0, downwash=0.2)
     asked = world.requirements(PathRequirements())
     assert (asked.gap, asked.floor, asked.ceiling) == (0.46, -2.0, 2.0)

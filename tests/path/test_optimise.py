@@ -18,8 +18,8 @@ from knotopt import (
     PathRequirements,
     best_cut,
     best_supports,
-    find_knot,
     optimise_path,
+    read,
     shipped_knots,
     torus_knot,
 )
@@ -53,7 +53,7 @@ def assert_meets(result: optimise.PathResult) -> None:
 
 @pytest.mark.parametrize("row", ROWS)
 def test_table_1_with_lcf_and_with_the_smallest_sets(row: str) -> None:
-    diagram = find_knot(row).diagram
+    diagram = read(row).diagram
     for chosen in (best_cut(diagram), best_supports(diagram).best):
         result = optimise_path(chosen.cable, chosen.supports)
         assert_meets(result)
@@ -87,7 +87,7 @@ def test_any_supports_of_any_cable_keep_the_diagram(cable: Cable, data: st.DataO
 
 @pytest.mark.parametrize("clearance", [0.1, 0.3, 0.6])
 def test_wider_limits_are_kept_and_cost_length(clearance: float) -> None:
-    chosen = best_cut(find_knot("5").diagram)
+    chosen = best_cut(read("5").diagram)
     asked = PathRequirements(clearance=clearance, opening=0.6, gap=0.5)
     result = optimise_path(chosen.cable, chosen.supports, asked)
     assert_meets(result)
@@ -96,7 +96,7 @@ def test_wider_limits_are_kept_and_cost_length(clearance: float) -> None:
 
 
 def test_more_bending_weight_bends_less() -> None:
-    chosen = best_cut(find_knot("5").diagram)
+    chosen = best_cut(read("5").diagram)
     curves = [
         optimise_path(chosen.cable, chosen.supports, PathRequirements(bending=b)).curve
         for b in (0.01, 0.1, 1.0)
@@ -109,7 +109,7 @@ def test_more_bending_weight_bends_less() -> None:
 
 def test_what_the_robots_leave_no_room_for_is_named() -> None:
     """With a robot at every turning point no opening is wider than the grid's cells."""
-    cable = Cable(find_knot("5").diagram, "L+")
+    cable = Cable(read("5").diagram, "L+")
     every = tuple(range(2, len(cable.path)))
     result = optimise_path(cable, every, PathRequirements(opening=1.5))
     assert result.status in (PathStatus.INFEASIBLE, PathStatus.STOPPED)
@@ -118,7 +118,7 @@ def test_what_the_robots_leave_no_room_for_is_named() -> None:
 
 
 def test_limits_that_cannot_be_met_name_the_pair() -> None:
-    cable = Cable(find_knot("3").diagram, "L+")
+    cable = Cable(read("3").diagram, "L+")
     asked = PathRequirements(gap=1.9, slope=0.3)
     result = optimise_path(cable, (3, 4, 6), asked)
     assert result.status in (PathStatus.INFEASIBLE, PathStatus.STOPPED)
@@ -148,7 +148,7 @@ def test_a_time_limit_leaves_a_path_that_keeps_the_knot() -> None:
     ],
 )
 def test_supports_that_are_no_turning_points(supports: tuple[float, ...], words: str) -> None:
-    cable = Cable(find_knot("3").diagram, "L+")
+    cable = Cable(read("3").diagram, "L+")
     with pytest.raises(RequirementError, match=words):
         optimise_path(cable, supports)  # type: ignore[arg-type]
 
@@ -288,7 +288,7 @@ def test_a_solver_that_breaks_down_leaves_the_path_as_it_was(
         return replace(found, status=PathStatus.FAILED, raw_status="Broken", positions=flipped)
 
     monkeypatch.setattr(optimise, "solve", broken)
-    cable = Cable(find_knot("3").diagram, "L+")
+    cable = Cable(read("3").diagram, "L+")
     result = optimise_path(cable, (3, 4, 6))
     assert result.status is PathStatus.STOPPED and result.raw_status == "Broken"
     assert not any(each.accepted for each in result.rounds)
@@ -298,7 +298,7 @@ def test_a_solver_that_breaks_down_leaves_the_path_as_it_was(
 def test_one_structure_is_built_once() -> None:
     from formulations.elements import build_solver
 
-    chosen = best_cut(find_knot("3").diagram)
+    chosen = best_cut(read("3").diagram)
     build_solver.cache_clear()
     for _ in range(2):
         result = optimise_path(chosen.cable, chosen.supports)
@@ -306,7 +306,7 @@ def test_one_structure_is_built_once() -> None:
 
 
 def test_places_are_named_by_turning_points() -> None:
-    cable = Cable(find_knot("3").diagram, "L+")
+    cable = Cable(read("3").diagram, "L+")
     names = [span_name(cable, float(time)) for time in cable.times]
     assert names == [f"p{k}" for k in range(1, 11)]
     result = optimise_path(cable, (3, 4, 6))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from formulations.ipopt import PathStatus
-from knotopt import Cable, Relaxation, best_cut, find_knot, relax, relaxed_path, torus_knot
+from knotopt import Cable, Relaxation, best_cut, read, relax, relaxed_path, torus_knot
 from knotopt.errors import RequirementError
 from knotopt.path.relaxation import straightening
 
@@ -34,7 +34,7 @@ def forces_by_the_paper(
 
 
 def test_the_trajectory_is_that_of_the_equations() -> None:
-    chosen = best_cut(find_knot("4").diagram)
+    chosen = best_cut(read("4").diagram)
     asked = Relaxation(most_steps=60, least_steps=60)
     run = relax(chosen.cable, chosen.supports, asked)
     assert run.steps == 60 and not run.converged
@@ -49,7 +49,7 @@ def test_the_trajectory_is_that_of_the_equations() -> None:
 
 
 def test_robots_do_not_move_and_it_comes_to_rest() -> None:
-    chosen = best_cut(find_knot("5").diagram)
+    chosen = best_cut(read("5").diagram)
     run = relax(chosen.cable, chosen.supports)
     assert run.converged
     held = [0, *(k - 1 for k in chosen.supports), len(chosen.cable.path) - 1]
@@ -75,7 +75,7 @@ def test_nodes_between_turning_points() -> None:
 
 
 def test_soft_springs_lose_the_knot_and_the_result_says_so() -> None:
-    chosen = best_cut(find_knot("5").diagram)
+    chosen = best_cut(read("5").diagram)
     soft = relaxed_path(chosen.cable, chosen.supports, None, Relaxation(stiffness=0.05))
     assert not soft.report.same_diagram
     assert np.isnan(soft.report.gap)
@@ -85,7 +85,7 @@ def test_soft_springs_lose_the_knot_and_the_result_says_so() -> None:
 
 
 def test_what_diverges_is_no_path() -> None:
-    chosen = best_cut(find_knot("3").diagram)
+    chosen = best_cut(read("3").diagram)
     with np.errstate(all="ignore"):
         result = relaxed_path(
             chosen.cable, chosen.supports, None, Relaxation(stiffness=1e4, step=1.0)

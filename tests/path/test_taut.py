@@ -13,8 +13,8 @@ from knotopt import (
     Cable,
     best_cut,
     best_supports,
-    find_knot,
     optimise_path,
+    read,
     taut_length,
     taut_string,
 )
@@ -112,14 +112,14 @@ def test_the_string_is_taut_and_passes_the_robots_as_the_cable_does(
 
 
 def test_all_turning_points_held_leave_the_grid_path() -> None:
-    cable = best_cut(find_knot("9").diagram).cable
+    cable = best_cut(read("9").diagram).cable
     every = tuple(range(2, len(cable.path)))
     assert taut_length(cable, every) == pytest.approx(cable.length)
     assert all(len(span) == 2 for span in taut_string(cable, every))
 
 
 def test_a_string_held_by_a_robot_bends_round_it() -> None:
-    chosen = best_cut(find_knot("9").diagram)
+    chosen = best_cut(read("9").diagram)
     spans = taut_string(chosen.cable, chosen.supports)
     assert max(len(span) for span in spans) > 2
     with pytest.raises(RequirementError, match="no support robot can be at p99"):
@@ -129,7 +129,7 @@ def test_a_string_held_by_a_robot_bends_round_it() -> None:
 @pytest.mark.parametrize("name", ["3_1", "5_2", "7_4", "8_19", "9_20"])
 def test_the_programs_path_passes_the_robots_as_the_cable_does(name: str) -> None:
     """So the taut string of the same class is a lower bound of its length."""
-    for chosen in (best_cut(find_knot(name).diagram), best_supports(find_knot(name).diagram).best):
+    for chosen in (best_cut(read(name).diagram), best_supports(read(name).diagram).best):
         cable, supports = chosen.cable, chosen.supports
         plan = optimise_path(cable, supports).curve.sample(0.01)[:, :2]
         times = robot_times(cable, supports)

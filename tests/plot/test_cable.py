@@ -18,13 +18,13 @@ from knotopt import optimise_path, relax, relaxed_path
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import outer_cuts
 from knotopt.catalogue.knots import shipped_knots
-from knotopt.catalogue.lookup import find_knot
 from knotopt.cli.drawing import draw_text
 from knotopt.diagram.families import torus_knot
 from knotopt.errors import OutputError
 from knotopt.plot.cable import GAP, draw_cable, draw_loops, draw_regions, draw_robots
 from knotopt.plot.figures import before_after_figure, cable_figure, save_figure, smallest_figure
 from knotopt.plot.path_figures import path_figure, relaxation_figure
+from knotopt.reading.knot import read_knot
 from knotopt.supports.lcf import best_cut, lcf
 from knotopt.supports.loops import disjoint_loops
 from knotopt.supports.minimal import minimal_supports
@@ -83,7 +83,7 @@ def test_numbers_of_turning_points_do_not_collide(name: str) -> None:
 
 def test_labels_of_a_path_do_not_collide_and_leave_it_visible() -> None:
     """4_1: two supports close to all four crossings."""
-    chosen = best_cut(find_knot("4").diagram)
+    chosen = best_cut(read_knot("4").diagram)
     result = optimise_path(chosen.cable, chosen.supports)
     figure = path_figure([result], "4_1")
     plan = figure.axes[0]
@@ -96,7 +96,7 @@ def test_labels_of_a_path_do_not_collide_and_leave_it_visible() -> None:
 
 
 def test_lifting_robots_are_drawn_as_such_in_every_panel() -> None:
-    chosen = best_cut(find_knot("4").diagram)
+    chosen = best_cut(read_knot("4").diagram)
     relaxed = relaxed_path(chosen.cable, chosen.supports)
     run = relax(chosen.cable, chosen.supports)
     figure = relaxation_figure(run, relaxed, relaxed, "Fig. 5")

@@ -15,7 +15,6 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch, FancyBboxPatch
 from scipy.optimize import lsq_linear
 
-from knotopt.catalogue.lookup import find_knot
 from knotopt.errors import KnotoptError
 from knotopt.plot.figures import figure_bytes
 from knotopt.plot.layers import layered
@@ -23,6 +22,7 @@ from knotopt.plot.packing import circle_packing
 from knotopt.plot.plan_layout import Layout, joined_states, laid_out, text_width
 from knotopt.plot.rope import draw_rope, rope_curve
 from knotopt.plot.topology import plan_figure
+from knotopt.reading.knot import read_knot
 from knotopt.supports.lcf import best_cut
 from knotopt.topology.actions import R1, R2
 from knotopt.topology.cable_state import cable_state
@@ -34,7 +34,7 @@ from knotopt.verify.crossings import curve_crossings
 
 @cache
 def plans_to(name: str) -> PlanGraph:
-    return plan_graph(cable_state(best_cut(find_knot(name).diagram).cable))
+    return plan_graph(cable_state(best_cut(read_knot(name).diagram).cable))
 
 
 @cache

@@ -14,9 +14,9 @@ import pytest
 from formulations.solution import Solution, Status
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import Cut, outer_cuts
-from knotopt.catalogue.lookup import find_knot
 from knotopt.diagram.families import torus_knot
 from knotopt.errors import MissingExtraError, RequirementError
+from knotopt.reading.knot import read_knot
 from knotopt.rehearsal import cut_off
 from knotopt.rehearsal.cut_off import AS_PLANNED, CutOff, FlownStatus, fly_set, solve_flown
 from knotopt.rehearsal.flight_tests import FlightTests
@@ -207,7 +207,7 @@ def test_without_mujoco_nothing_is_solved(monkeypatch: pytest.MonkeyPatch) -> No
 def test_in_physics() -> None:
     """The smallest set of `span` ties 3_1; a cable without supports does not."""
     pytest.importorskip("mujoco")
-    diagram = find_knot("3").diagram
+    diagram = read_knot("3").diagram
     tests = FlightTests(max_cut=3, trials=2)
     found = solve_flown("3_1", diagram, SPAN, tests)
     assert found.status is FlownStatus.TIED and found.tied is not None

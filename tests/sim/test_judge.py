@@ -10,14 +10,14 @@ import spherogram
 
 from knotopt.cable.cable import Cable
 from knotopt.catalogue.knots import shipped_knots
-from knotopt.catalogue.lookup import find_knot
 from knotopt.diagram.grid import GridDiagram
 from knotopt.flight.record import Disturbance, FlightRecord
+from knotopt.reading.knot import read_knot
 from knotopt.sim.judge import Outcome, closed_polynomials, judge, knot_name
 from knotopt.sim.material import Material
 from tests.helpers.snappy_invariants import invariants, seifert_invariants
 
-TREFOIL = Cable(find_knot("3").diagram, "L+")
+TREFOIL = Cable(read_knot("3").diagram, "L+")
 
 
 def lying(cable: Cable) -> np.ndarray:
@@ -66,7 +66,7 @@ def test_mirror_images_are_not_told_apart():
 
 
 def test_the_judge_takes_a_diagram_too():
-    diagram: GridDiagram = find_knot("3").diagram
+    diagram: GridDiagram = read_knot("3").diagram
     verdict = judge(as_record(lying(TREFOIL)), diagram)
     assert verdict.is_wanted
     assert invariants(diagram).alexander == (1, -1, 1)

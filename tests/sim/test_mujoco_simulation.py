@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from knotopt.cable.cable import Cable
-from knotopt.catalogue.lookup import find_knot
 from knotopt.errors import MissingExtraError, RequirementError
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.plan import FlightPlan
 from knotopt.flight.record import Disturbance, FlightRecord
+from knotopt.reading.knot import read_knot
 from knotopt.sim.hanging import hanging_chain
 from knotopt.sim.judge import Outcome, judge
 from knotopt.sim.material import Material
@@ -24,7 +24,7 @@ from knotopt.sim.trials import simulate
 SPEED = 0.4  # of the leader [m/s]
 INTERVAL = 0.05
 LIMITS = FlightLimits()
-TREFOIL = Cable(find_knot("3").diagram, "L+")
+TREFOIL = Cable(read_knot("3").diagram, "L+")
 
 
 def train(cable: Cable, supports: tuple[int, ...]) -> FlightPlan:

@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import pytest
 
-from knotopt import Cable, find_knot
+from knotopt import Cable, read
 from knotopt.errors import MissingExtraError
 from knotopt.flight.planner import plan_flight
 from knotopt.flight.record import Disturbance
@@ -22,7 +22,7 @@ from knotopt.sim.trials import fly_trial, fly_trials
 from knotopt.supports.selection import GivenSupports
 from tests.helpers.trailing_cable import TRAILING, TrailingCable
 
-CABLE = Cable(find_knot("3").diagram, "L+")
+CABLE = Cable(read("3").diagram, "L+")
 SMALLEST = GivenSupports(CABLE, (4, 5, 7))
 
 
@@ -33,7 +33,7 @@ def _without_mujoco(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("knot", ["3_1", "4_1"])
 def test_trials(knot: str) -> None:
-    cable = Cable(find_knot(knot).diagram, "L+")
+    cable = Cable(read(knot).diagram, "L+")
     plan = plan_flight(knot, cable, tuple(range(2, len(cable.path))), schedule="fixed")
     flight = fly_trial(plan, simulator=TRAILING)
     assert flight.is_tied and flight.verdict.knot == knot and flight.amiss == ""

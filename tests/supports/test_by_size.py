@@ -18,9 +18,9 @@ from formulations.solution import Limits, Solution, Status
 from formulations.team import Team
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import crossing_free_cuts, outer_cuts
-from knotopt.catalogue.lookup import find_knot
 from knotopt.diagram.families import torus_knot
 from knotopt.errors import RequirementError
+from knotopt.reading.knot import read_knot
 from knotopt.supports.by_size import optimal_sets, sets_in_order
 from knotopt.supports.certificate import prove
 from knotopt.supports.minimal import all_minimal, minimal_supports
@@ -94,7 +94,7 @@ def test_every_solver_gives_the_next_set(formulation: str, solver: str) -> None:
 def test_all_smallest_sets_against_exhaustive_search() -> None:
     for name in ("3", "4", "9"):
         for formulation in FORMULATIONS:
-            cable = Cable(find_knot(name).diagram, "L+")
+            cable = Cable(read_knot(name).diagram, "L+")
             asked = Requirements(formulation, 0.25)
             result = minimal_supports(cable, asked)
             solver = "exhaustive" if len(cable.path) <= 14 else "cp-sat"
@@ -108,7 +108,7 @@ def test_all_smallest_sets_against_exhaustive_search() -> None:
 
 
 def test_all_smallest_sets_of_all_cuts() -> None:
-    diagram = find_knot("9").diagram
+    diagram = read_knot("9").diagram
     asked = Requirements("span", 0.25)
     found = optimal_sets(diagram, asked)
     by_cut = {

@@ -15,9 +15,9 @@ from formulations.solution import Limits
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import Cut, crossing_free_cuts
 from knotopt.catalogue.knots import shipped_knots
-from knotopt.catalogue.lookup import find_knot
 from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import CertificateError, MissingExtraError, RequirementError
+from knotopt.reading.knot import read_knot
 from knotopt.supports.certificate import prove
 from knotopt.supports.requirements import Requirements
 from knotopt.supports.search import best_supports
@@ -30,7 +30,7 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.fixture(scope="module")
 def certificate() -> str:
-    return prove("5_1", find_knot("5").diagram)
+    return prove("5_1", read_knot("5").diagram)
 
 
 @settings(max_examples=200)
@@ -46,7 +46,7 @@ def test_the_checkers_cables_are_the_cables(diagram: GridDiagram) -> None:
 def test_a_certificate_is_accepted(certificate: str) -> None:
     verdict = check_certificate(certificate)
     assert (verdict.knot, verdict.robots, verdict.cuts) == ("5_1", 6, 8) and verdict.every_cut
-    assert verdict.robots == best_supports(find_knot("5").diagram).best.robots
+    assert verdict.robots == best_supports(read_knot("5").diagram).best.robots
 
 
 @pytest.mark.parametrize("name", ["3_1", "7_4", "8_19", "10_124", "10_161"])
@@ -64,7 +64,7 @@ def test_certificates_of_knots(name: str) -> None:
 
 
 def test_certificates_of_one_cut_and_by_counting(monkeypatch: pytest.MonkeyPatch) -> None:
-    diagram = find_knot("3").diagram
+    diagram = read_knot("3").diagram
     verdict = check_certificate(prove("3_1", diagram, cuts=[Cut.parse("T-", 5)]))
     assert (verdict.cut, verdict.cuts, verdict.every_cut) == ("T-", 1, False)
     monkeypatch.setattr("importlib.util.find_spec", lambda _: None)  # no PySAT
@@ -76,7 +76,7 @@ def test_certificates_of_one_cut_and_by_counting(monkeypatch: pytest.MonkeyPatch
 
 
 def test_what_cannot_be_certified() -> None:
-    diagram = find_knot("7 Var1").diagram
+    diagram = read_knot("7 Var1").diagram
     with pytest.raises(RequirementError, match="leave out the other options"):
         prove("7_2", diagram, Requirements(payload=5))
     with pytest.raises(CertificateError, match="smaller sets are too many to count"):
@@ -193,7 +193,7 @@ def test_an_unfinished_search_is_not_certified() -> None:
 
 def test_changed_certificates_of_span_are_rejected() -> None:
     """A clause without the spans that excuse it, or with others, is not believed."""
-    content = json.loads(prove("4_1", find_knot("4").diagram, Requirements("span")))
+    content = json.loads(prove("4_1", read_knot("4").diagram, Requirements("span")))
     assert check_certificate(json.dumps(content)).robots == 5
     bound = next(bound for bound in content["bounds"] if bound["cut"] == content["cut"])
     content["bounds"], content["every_cut"] = [bound], False

@@ -18,12 +18,12 @@ from formulations.solution import Limits
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import OUTER_CUTS, Cut, crossing_free_cuts
 from knotopt.catalogue.knots import shipped_knots
-from knotopt.catalogue.lookup import find_knot
 from knotopt.catalogue.table1_grids import table1_grids
 from knotopt.diagram.families import random_knot, torus_knot
 from knotopt.diagram.grid import GridDiagram
 from knotopt.diagram.moves import Symmetry, transform
 from knotopt.errors import CertificateError, RequirementError
+from knotopt.reading.knot import read_knot
 from knotopt.supports.certificate import prove
 from knotopt.supports.loops import disjoint_loops, loop_stretches
 from knotopt.supports.minimal import minimal_supports
@@ -156,7 +156,7 @@ def test_it_is_no_bound_for_the_knot() -> None:
     seen: Counter[tuple[bool, bool]] = Counter()
     for row in map(json.loads, lines):
         case = row["case"]
-        cable = Cable(find_knot(case["row"]).diagram, case["cut"])
+        cable = Cable(read_knot(case["row"]).diagram, case["cut"])
         seen[examined(cable, case["supports"]), row["result"]["tied"]] += 1
     assert seen == {(True, True): 604, (True, False): 508, (False, True): 4, (False, False): 164}
 
@@ -168,14 +168,14 @@ def test_one_support_off_a_loop_ties_the_trefoil() -> None:
     from knotopt.flight.planner import plan_flight
     from knotopt.sim.trials import fly_trial
 
-    cable = Cable(find_knot("3").diagram, "R+")
+    cable = Cable(read_knot("3").diagram, "R+")
     assert not examined(cable, (8,))
     plan = plan_flight("3_1", cable, (8,), "file", schedule="optimised")
     assert fly_trial(plan).is_tied
 
 
 def test_wishes_of_a_team_are_met_by_solvers() -> None:
-    cable = Cable(find_knot("7 Var2").diagram, "L+")
+    cable = Cable(read_knot("7 Var2").diagram, "L+")
     plain = minimal_supports(cable, LOOPS)
     assert plain.solution.solver == "sweep" and plain.supports == (9, 14)
     asked: tuple[dict[str, Any], ...] = (
@@ -202,7 +202,7 @@ def test_wishes_of_a_team_are_met_by_solvers() -> None:
 
 
 def test_a_cut_that_is_no_better_is_passed_over() -> None:
-    search = best_supports(find_knot("10_123").diagram, LOOPS)
+    search = best_supports(read_knot("10_123").diagram, LOOPS)
     assert search.is_proven and search.bound == search.best.robots == 6
     assert [outcome.robots for outcome in search.outcomes[1:]] == [None] * 9
     unknot = minimal_supports(Cable(torus_knot(1, 2), "L+"), LOOPS)
@@ -213,7 +213,7 @@ def test_with_loops_is_asked_for_or_not() -> None:
     assert Requirements("span").with_loops and Requirements("span").words == "span with loops"
     assert not Requirements("opening").with_loops and not LOOPS.with_loops
     assert Requirements("loops", with_loops=True) == LOOPS  # which has these rows anyway
-    cable = Cable(find_knot("4").diagram, "L+")
+    cable = Cable(read_knot("4").diagram, "L+")
     for name in ("opening", "span"):
         plain = minimal_supports(cable, Requirements(name, with_loops=False))
         added = minimal_supports(cable, Requirements(name, with_loops=True))
@@ -230,7 +230,7 @@ def test_with_loops_is_asked_for_or_not() -> None:
 
 @pytest.fixture(scope="module")
 def certificate() -> str:
-    return prove("7_6", find_knot("7 Var2").diagram, LOOPS)
+    return prove("7_6", read_knot("7 Var2").diagram, LOOPS)
 
 
 def _changed(text: str, **bound: Any) -> str:
@@ -264,13 +264,13 @@ def test_certificates_of_disjoint_loops(certificate: str) -> None:
 
 @pytest.mark.parametrize("method", ["disjoint loops", "refutation", "count"])
 def test_three_kinds_of_proof(method: str) -> None:
-    verdict = check_certificate(prove("3_1", find_knot("3").diagram, LOOPS, method=method))
+    verdict = check_certificate(prove("3_1", read_knot("3").diagram, LOOPS, method=method))
     assert verdict.robots == 3
 
 
 def test_certificates_with_loops_say_so() -> None:
     """A bound of sets with loops proves nothing of sets without, and the other way round."""
-    diagram = find_knot("4").diagram
+    diagram = read_knot("4").diagram
     asked, cuts = Requirements("opening", with_loops=True), [Cut.parse("L+", diagram.size)]
     for method in ("refutation", "count"):
         text = prove("4_1", diagram, asked, cuts=cuts, method=method)

@@ -18,13 +18,13 @@ from formulations.solution import Limits, Status
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import crossing_free_cuts
 from knotopt.catalogue.knots import shipped_knots
-from knotopt.catalogue.lookup import find_knot
 from knotopt.diagram.families import torus_knot
+from knotopt.reading.knot import read_knot
 from knotopt.supports.minimal import MinimalSupports, all_minimal, minimal_supports
 from knotopt.supports.regions import Regions
 from knotopt.supports.registry import FORMULATIONS
 from knotopt.supports.requirements import Requirements
-from knotopt.supports.search import best_diagram, best_supports, supports_by_cut
+from knotopt.supports.search import best_supports, supports_by_cut
 from knotopt.supports.team import compile_team
 from knotopt.verify.opening import threading_cells
 from knotopt.verify.regions import define_regions, lay
@@ -126,7 +126,7 @@ def test_the_optimum_by_brute_force(cable: Cable, formulation: str, data: st.Dat
 def test_the_optimum_of_knots_by_brute_force(
     name: str, cut: int, formulation: str, data: st.DataObject
 ) -> None:
-    diagram = find_knot(name).diagram
+    diagram = read_knot(name).diagram
     cable = Cable(diagram, crossing_free_cuts(diagram)[cut])
     assert_optimum_by_brute_force(cable, formulation, data)
 
@@ -182,7 +182,7 @@ def test_at_most_so_many_robots(cable: Cable, most: int) -> None:
 def test_every_solver_gives_the_same_canonical_set(solver: str) -> None:
     for formulation in FORMULATIONS:
         asked = Requirements(formulation)
-        cable = Cable(find_knot("4_1").diagram, "B-")
+        cable = Cable(read_knot("4_1").diagram, "B-")
         expected = minimal_supports(cable, asked)
         found = minimal_supports(cable, asked, solver=solver, limits=Limits(seed=7))
         assert found.supports == expected.supports and found.canonical and found.is_proven
@@ -190,19 +190,19 @@ def test_every_solver_gives_the_same_canonical_set(solver: str) -> None:
 
 
 def test_lcf_as_start_and_what_it_closes() -> None:
-    not_open = minimal_supports(Cable(find_knot("5").diagram, "L+"))
+    not_open = minimal_supports(Cable(read_knot("5").diagram, "L+"))
     assert not_open.lcf.robots < not_open.robots
     assert not_open.solution.start_accepted is False and not not_open.lcf_report.is_open
     closed = [not_open.lcf.regions[k].name for k in not_open.lcf_report.closed_regions]
     assert closed == ["loop c1", "loop c2", "loop c3", "loop c4"]
-    is_open = minimal_supports(Cable(find_knot("7 Var2").diagram, "L+"))
+    is_open = minimal_supports(Cable(read_knot("7 Var2").diagram, "L+"))
     assert is_open.solution.start_accepted is True and is_open.lcf_report.is_open
     assert is_open.lcf.robots > is_open.robots
 
 
 @pytest.mark.parametrize("formulation", list(FORMULATIONS))
 def test_the_check_takes_nothing_but_the_cable_from_the_maker(formulation: str) -> None:
-    cable = Cable(find_knot("5").diagram, "L+")
+    cable = Cable(read_knot("5").diagram, "L+")
     result = minimal_supports(cable, Requirements(formulation))
     bare: Any = SimpleNamespace(cable=cable)  # in the place of regions
     again = replace(result, lcf=replace(result.lcf, regions=bare))
@@ -213,7 +213,7 @@ def test_the_check_takes_nothing_but_the_cable_from_the_maker(formulation: str) 
 @pytest.mark.parametrize("formulation", list(FORMULATIONS))
 @pytest.mark.parametrize("name", ["7_4", "8_19", "9_35"])
 def test_best_cut_is_the_best_of_all(name: str, formulation: str) -> None:
-    diagram = find_knot(name).diagram
+    diagram = read_knot(name).diagram
     asked = Requirements(formulation)
     single = list(supports_by_cut(diagram, asked))
     search = best_supports(diagram, asked)
@@ -228,21 +228,8 @@ def test_best_cut_is_the_best_of_all(name: str, formulation: str) -> None:
         assert outcome.robots is not None or outcome.bound >= fewest
 
 
-def test_diagrams_of_the_same_knot() -> None:
-    diagram = find_knot("7 Var1").diagram
-    done: list[int] = []
-    found = best_diagram(diagram, budget=25, seed=1, progress=done.append)
-    assert found.tried == 25 and done == list(range(1, 26)) and found.seed == 1
-    assert found.best.best.robots < best_supports(diagram).best.robots
-    assert found.best.best.is_proven and found.best.best.cable.diagram.size == diagram.size
-    again = best_diagram(diagram, budget=25, seed=1)
-    assert again.best.best.supports == found.best.best.supports
-    small = best_diagram(torus_knot(2, 3), budget=50, seed=0)
-    assert small.tried == 5  # translations of the trefoil's smallest grid
-
-
 def test_infeasible_requests_name_what_cannot_be_met() -> None:
-    cable = Cable(find_knot("5").diagram, "L+")
+    cable = Cable(read_knot("5").diagram, "L+")
 
     def conflict(**options: Any) -> tuple[MinimalSupports, set[str]]:
         result = minimal_supports(cable, Requirements(**options))
@@ -281,14 +268,14 @@ def test_a_set_at_hand_when_the_solver_has_none(monkeypatch: pytest.MonkeyPatch)
     unknown = Solution(Status.UNKNOWN, "UNKNOWN", bound=3)
     monkeypatch.setattr(CpSat, "solve", lambda *_: unknown)
     limits = Limits(seconds=1e-6)
-    lcf_is_open = minimal_supports(Cable(find_knot("7 Var2").diagram, "L+"), limits=limits)
+    lcf_is_open = minimal_supports(Cable(read_knot("7 Var2").diagram, "L+"), limits=limits)
     assert lcf_is_open.supports == lcf_is_open.lcf.supports
     assert "LCF's set" in lcf_is_open.solution.raw_status
-    everywhere = minimal_supports(Cable(find_knot("5").diagram, "L+"), limits=limits)
+    everywhere = minimal_supports(Cable(read_knot("5").diagram, "L+"), limits=limits)
     assert everywhere.robots == everywhere.baseline == 14 and not everywhere.is_proven
     assert (everywhere.solution.status, everywhere.solution.gap) == (Status.FEASIBLE, 11 / 14)
     impossible = Requirements(separation=4)
-    nothing = minimal_supports(Cable(find_knot("5").diagram, "L+"), impossible, limits=limits)
+    nothing = minimal_supports(Cable(read_knot("5").diagram, "L+"), impossible, limits=limits)
     assert not nothing.found and nothing.solution.status is Status.UNKNOWN
 
 
@@ -298,7 +285,7 @@ def test_ctrl_c_ends_a_search_with_what_is_known(monkeypatch: pytest.MonkeyPatch
 
     from knotopt.supports import search
 
-    diagram = find_knot("7 Var2").diagram
+    diagram = read_knot("7 Var2").diagram
     original = search.minimal_supports
 
     def early(cable: Cable, *arguments: Any, **options: Any) -> MinimalSupports:
@@ -328,7 +315,7 @@ def test_an_unfinished_widening_is_not_called_canonical(monkeypatch: pytest.Monk
     from formulations import canonical
 
     original = canonical.attempt
-    cable = Cable(find_knot("5").diagram, "L+")
+    cable = Cable(read_knot("5").diagram, "L+")
     for options in ({}, {"max_robots": 8}):
         whole = minimal_supports(cable, Requirements(**options))
         for lost in range(1, 4):
@@ -372,8 +359,8 @@ def test_reach_rows_on_larger_cables() -> None:
 
     source = random.Random(0)
     for name in ("6_2", "7_6", "8_20"):
-        for cut in crossing_free_cuts(find_knot(name).diagram):
-            cable = Cable(find_knot(name).diagram, cut)
+        for cut in crossing_free_cuts(read_knot(name).diagram):
+            cable = Cable(read_knot(name).diagram, cut)
             for formulation in FORMULATIONS:
                 asked = Requirements(formulation, reach=source.choice([2.0, 3.0, 4.0]))
                 team = compile_team(Regions(cable), asked)

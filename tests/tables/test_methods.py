@@ -31,12 +31,12 @@ from knotopt.atlas.columns import FILES
 from knotopt.atlas.knot_list import knot_rows
 from knotopt.atlas.measure import measure_knot
 from knotopt.atlas.schema import File, Settings
-from knotopt.catalogue.lookup import find_knot
+from knotopt.reading.knot import read_knot
 from knotopt.document.columns import check_rows
 from knotopt.tables import comparison, table1
 
-found = find_knot("3")
-table = comparison.tabulated([comparison.compare("3_1", found.diagram)]).document.tables[0]
+found = read_knot("3")
+table = comparison.comparison_table([comparison.compare("3_1", found.diagram)]).document.tables[0]
 print(dict(zip(table.heads, table.rows[0]))["rooms"])
 table = table1.tabulated([next(table1.compute_table1())]).document.tables[0]
 print(dict(zip(table.heads, table.rows[0]))["rooms"])

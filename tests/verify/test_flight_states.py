@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from knotopt import Cable
 from knotopt.arrays import FloatArray
 from knotopt.cable.alexander import alexander_from_gauss, alexander_polynomial
-from knotopt.catalogue.lookup import find_knot
+from knotopt.reading.knot import read_knot
 from knotopt.topology.cable_state import cable_state
 from knotopt.topology.closure import closed_gauss
 from knotopt.topology.extract import extract_state
@@ -324,7 +324,7 @@ def test_flights_of_table_1_with_a_robot_at_every_corner(row: str) -> None:
     from knotopt.flight.planner import plan_flight
     from knotopt.sim.trials import fly_trial
 
-    cable = Cable(find_knot(row).diagram, "L+")
+    cable = Cable(read_knot(row).diagram, "L+")
     plan = plan_flight(row, cable, tuple(range(2, len(cable.path))))
     count = len(cable.crossings)
     assert examine_plan(plan).states.sentence == f"as planned ({count} of {count})"
@@ -342,7 +342,7 @@ def test_a_modelled_plan_with_few_robots_ties_its_knot() -> None:
     from knotopt.flight.examine import examine_plan
     from knotopt.flight.planner import plan_flight
 
-    cable = Cable(find_knot("3").diagram, "L+")
+    cable = Cable(read_knot("3").diagram, "L+")
     found = examine_plan(plan_flight("3_1", cable, (3, 4, 6), schedule="fixed")).states
     assert found.sentence == "as planned (3 of 3)"
     ((last,),) = found.planned.steps[-1:]

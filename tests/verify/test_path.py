@@ -8,7 +8,7 @@ import snappy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from knotopt import Cable, Curve, best_cut, check_path, find_knot, optimise_path, shipped_knots
+from knotopt import Cable, Curve, best_cut, check_path, optimise_path, read, shipped_knots
 from knotopt.cable.alexander import alexander_from_gauss, alexander_polynomial
 from knotopt.path.result import FINE, robot_points
 from knotopt.verify.alexander import POINTS, PRIME, alexander_values
@@ -82,7 +82,7 @@ def link_of_code(visits: list[tuple[int, bool]], signs: list[int]) -> snappy.Lin
 
 
 def path_of_5_1() -> tuple[Cable, tuple[int, ...], np.ndarray]:
-    chosen = best_cut(find_knot("5").diagram)
+    chosen = best_cut(read("5").diagram)
     result = optimise_path(chosen.cable, chosen.supports)
     return chosen.cable, chosen.supports, result.curve.sample(FINE)
 

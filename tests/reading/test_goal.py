@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from knotopt.cable.cable import Cable
-from knotopt.catalogue.lookup import find_knot
 from knotopt.errors import CutError, FileFormatError, UnknownKnotError
+from knotopt.reading.goal import GoalSet, read_goal
+from knotopt.reading.knot import read_knot
 from knotopt.topology.cable_state import cable_state
-from knotopt.topology.goals import GoalSet, read_goal
 from knotopt.topology.state import TRIVIAL, RopeState, RopeStateError
 
 OVERHAND = RopeState.from_gauss("U1+ O2+ U3+ O1+ U2+ O3+")
@@ -21,7 +21,7 @@ OVERHAND = RopeState.from_gauss("U1+ O2+ U3+ O1+ U2+ O3+")
 @pytest.mark.parametrize("cut", [None, "L+", "T-"])
 def test_knots(knot: str, cut: str | None) -> None:
     goal = read_goal(knot, cut)
-    named = find_knot(knot)
+    named = read_knot(knot)
     assert goal.cable == Cable(named.diagram, cut or "L+")
     assert goal.states == (cable_state(goal.cable),)
     assert (goal.name, goal.source) == (named.name, named.source)
@@ -87,7 +87,7 @@ def test_small_grids_are_not_taken_for_states(tmp_path: Path, name: str, content
 
 def test_a_grid_file_with_a_knot(tmp_path: Path) -> None:
     path = tmp_path / "grid.json"
-    path.write_text(json.dumps({"grid": find_knot("5_2").diagram.marks}))
+    path.write_text(json.dumps({"grid": read_knot("5_2").diagram.marks}))
     assert read_goal(str(path), "B+").states == read_goal("5_2", "B+").states
 
 
@@ -99,16 +99,16 @@ def test_a_grid_file_with_a_knot(tmp_path: Path) -> None:
         ("a.json", '{"matrix": [[1,2],[2,1],[1,-1],[1,-1]]}', "have opposite signs"),
         ("a.json", '{"matrix": [[1,2,3],[2,1]]}', "differ in length"),
         ("a.json", "[[1,2,3,4],[2,1,4,3],[1,-1,1,-1]]", "expected 4 rows"),
-        ("a.json", "[[{}],[{}],[{}],[{}]]", "entries that are not numbers"),
-        ("a.json", '[["1","2"],["2","1"],["1","-1"],["1","1"]]', "entries that are not numbers"),
+        ("a.json", "[[{}],[{}],[{}],[{}]]", "lists, but not those of a grid"),
+        ("a.json", '[["1","2","3"],["a"],["1"],["1"]]', "differ in length"),
         ("a.json", "[[1,2.5],[2,1],[1,-1],[1,1]]", "visit 2: the matrix has an entry that is not"),
-        ("a.json", "[[1,2", "line 1 is not JSON"),
-        ("a.json", '{"goal": 3}', 'expected either the key "grid" or "matrix"'),
+        ("a.json", "[[1,2", "line 1 opens '[', which is not closed"),
+        ("a.json", '{"goal": 3}', 'expected a key such as "grid", "matrix" or "pd_code"'),
         ("a.csv", "1,2,3,4\n2,1,4,5\n1,-1,1,-1\n1,1,1,1\n", "visit 3: its partner is visit 4"),
-        ("a.csv", "1,2\n2,1\n1,-1\n1,x\n", "line 4 is '1,x', expected integers"),
-        ("a.txt", "1 2\n2 x\n", "line 2 is '2 x': expected a row of whole numbers"),
-        ("a.txt", "1 2\n2 1\n1 -1\n", "expected 4 rows"),
-        ("a.txt", "", "holds neither a state's matrix nor a Gauss code"),
+        ("a.csv", "1,2\n2,1\n1,-1\n1,x\n", "line 4 is '1,x', expected whole numbers"),
+        ("a.txt", "1 2\n2 x\n", "line 2 is '2 x', expected whole numbers"),
+        ("a.txt", "1 2\n2 1\n1 -1\n", "3 rows of 2 numbers"),
+        ("a.txt", "", "there is nothing in it"),
         ("a.txt", "U1+ Q1+", "visit 2: 'Q1+' is not a visit"),
         ("a.txt", "U1+ O2+ U1+ O2+", "visits 1 and 3 of one crossing are both under"),
     ],
@@ -135,7 +135,7 @@ def test_wrong_words() -> None:
     with pytest.raises(UnknownKnotError, match="no knot is named 'granny'"):
         read_goal("granny")
     with pytest.raises(RopeStateError, match="visit 1 of crossing 1 has no sign"):
-        read_goal("1 -2 3 -1 2 -3")
+        read_goal("O1 U2 O3 U1 O2 U3")
     with pytest.raises(RopeStateError, match="1 visits"):
         read_goal("O1+")
     with pytest.raises(CutError, match=r"no grid to cut at T\+"):

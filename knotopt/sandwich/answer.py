@@ -1,0 +1,119 @@
+"""How many robots a knot takes: the least for the knot, to lay its diagram, flown, and safe.
+
+Below stands what is proven necessary, above what is flown in simulation and what keeps every loop
+and region open; where the first and the flown meet, the number of robots is settled.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from formulations.backends import DEFAULT
+from formulations.solution import Limits
+from knotopt.identify.identify import Identified, identify
+from knotopt.reading.record import NamedDiagram
+from knotopt.sandwich.known import KnownOfKnot, known_of_knot
+from knotopt.search.budget import Budget
+from knotopt.supports.diagram_search import DiagramSearch, find_diagram
+from knotopt.supports.lcf import LcfResult, best_cut
+from knotopt.supports.minimal import MinimalSupports
+from knotopt.supports.requirements import Requirements
+from knotopt.supports.search import best_supports
+
+BUDGET = Budget(seconds=2.0)
+"""Of the search for a grid on which the safe set is small."""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What is known of the number of robots that tie a knot.
+
+    Attributes
+    ----------
+    named : NamedDiagram
+        The diagram asked about.
+    identified : Identified
+        Which knot it is, by invariants.
+    known : KnownOfKnot
+        Whatever its diagram.
+    laid : MinimalSupports
+        The least to lay the diagram asked about with straight spans, over its cuts (`loops`).
+    safe_search : DiagramSearch
+        For the smallest safe set (`span` with loops), over grids of the knot.
+    lcf : LcfResult
+        The heuristic's set, on the diagram asked about.
+    seed : int
+    """
+
+    named: NamedDiagram
+    identified: Identified
+    known: KnownOfKnot
+    laid: MinimalSupports
+    safe_search: DiagramSearch
+    lcf: LcfResult
+    seed: int
+
+    @property
+    def safe(self) -> MinimalSupports:
+        """The smallest safe set found, on the grid on which it is."""
+        return self.safe_search.best.best
+
+    @property
+    def baseline(self) -> int:
+        """Robots with one at every turning point of the diagram asked about."""
+        return self.laid.baseline
+
+    @cached_property
+    def is_settled(self) -> bool:
+        """Whether as few robots as are needed fly."""
+        needed, flown = self.known.needed, self.known.flown
+        if needed.robots == self.laid.robots == 2:
+            return True
+        return flown is not None and flown.robots == needed.robots
+
+
+def answer(
+    named: NamedDiagram,
+    *,
+    openness: float | None = None,
+    budget: Budget = BUDGET,
+    seed: int = 0,
+    solver: str = DEFAULT,
+    limits: Limits | None = None,
+) -> Answer:
+    """How many robots the knot of a diagram takes.
+
+    Parameters
+    ----------
+    named : NamedDiagram
+    openness : float, optional
+        r of the safe set [grid steps]; by default half a step.
+    budget : Budget
+        Of the search for a grid on which the safe set is small.
+    seed : int
+        Of that search, and of the simplification before the knot is identified.
+    solver, limits
+        As for `best_supports`.
+
+    Examples
+    --------
+    >>> from knotopt.reading.knot import read_knot
+    >>> found = answer(read_knot("3"), budget=Budget(grids=1000))
+    >>> found.known.needed.robots, found.laid.robots, found.known.flown.robots, found.safe.robots
+    (3, 3, 3, 5)
+    >>> found.lcf.robots, found.baseline, found.is_settled
+    (5, 10, True)
+    """
+    identified = identify(named.diagram, seed=seed)
+    known = known_of_knot(identified.candidates, identified.invariants.alexander or ())
+    laid = best_supports(named.diagram, Requirements("loops"), limits=limits).best
+    safe = find_diagram(
+        named.diagram,
+        Requirements("span", openness, with_loops=True),
+        budget,
+        seed,
+        solver=solver,
+        limits=limits,
+    )
+    return Answer(named, identified, known, laid, safe, best_cut(named.diagram), seed)
