@@ -34,6 +34,9 @@ from .path.result import PathResult as PathResult
 from .path.taut import taut_length as taut_length
 from .path.taut import taut_string as taut_string
 from .path.world import World as World
+from .planar.from_grid import planar_diagram as planar_diagram
+from .planar.planar_diagram import PlanarDiagram as PlanarDiagram
+from .reading.writing import write_knot as write_knot
 from .rehearsal.flown_set import FlownSet as FlownSet
 from .rehearsal.rehearse import rehearse_flight as rehearse_flight
 from .rehearsal.tighten import tighten_flight as tighten_flight

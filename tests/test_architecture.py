@@ -34,7 +34,7 @@ ALLOWED: Mapping[str, str] = {
     "cable": "showing errors arrays diagram planar",
     "search": "errors diagram",
     "catalogue": "errors files diagram frames",
-    "identify": "errors arrays diagram planar cable catalogue",
+    "identify": "errors diagram planar cable catalogue",
     "topology": "showing errors arrays planar cable",
     "reading": "showing errors arrays diagram planar cable catalogue topology",
     # The judges.
@@ -58,8 +58,9 @@ ALLOWED: Mapping[str, str] = {
     "atlas": "formulations knotopt errors arrays files frames document diagram cable catalogue "
     "reading verify supports flight sim plot tables",
     "api": "formulations errors diagram cable reading supports path flight mission",
-    "cli": "formulations knotopt errors files document diagram search cable catalogue topology "
-    "reading verify supports path flight laid sandwich sim rehearsal plot mission tables atlas",
+    "cli": "formulations knotopt errors files document diagram planar search cable catalogue "
+    "identify topology reading verify supports path flight laid sandwich sim rehearsal plot "
+    "mission tables atlas",
     "__main__": "cli",
     "benchmarks": "formulations errors arrays files document diagram planar search cable catalogue "
     "topology reading verify supports path flight laid sim rehearsal plot mission tables atlas cli",
@@ -70,6 +71,7 @@ BY_NAME = {
     "knotopt": "the public names, when they are first used (lazy_loader)",
     "knotopt.atlas.engine": "distributed, of the extra, where a cluster is asked for",
     "knotopt.cli.app": "a command's module, when the command is asked for",
+    "knotopt.laid.invariants": "knot Floer homology, of the extra, where it is installed",
     "knotopt.showing": "knotopt.plot.pictures, when a result is asked for its picture",
     "formulations.backends": "a solver's module, when the solver is asked for",
 }

@@ -7,12 +7,22 @@ from collections.abc import Callable
 from matplotlib.figure import Figure
 
 from benchmarks import headlines, results
-from benchmarks.plots import formulations, heuristics, lcf, paths, physics, topology, versions
+from benchmarks.plots import (
+    formulations,
+    grids,
+    heuristics,
+    lcf,
+    paths,
+    physics,
+    topology,
+    versions,
+)
 from knotopt.files import write_atomically
 from knotopt.plot.figures import save_figure
 
 PAGES: dict[str, Callable[[], tuple[list[str], dict[str, Figure]]]] = {
     "summary.md": lcf.write_parts,
+    "grids.md": grids.write_parts,
     "formulations.md": formulations.write_parts,
     "heuristics.md": heuristics.write_parts,
     "paths.md": paths.write_parts,

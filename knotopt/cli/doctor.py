@@ -13,6 +13,7 @@ from knotopt.errors import install_line
 EXTRAS = {
     "viz": "matplotlib",
     "knotinfo": "database_knotinfo",
+    "snappy": "snappy",
     "scip": "pyscipopt",
     "sat": "python-sat",
     "sim": "mujoco",

@@ -56,6 +56,9 @@ def lcf(
         print_json({**_row(named.name, result), **_details(result)})
         return
     print_supports(f"{named.name} ({named.source})", result)
+    if not result.regions:
+        print_written(plot)
+        return
     print_table(
         ("region", "crossings", "boundary", "selects", "state"),
         (

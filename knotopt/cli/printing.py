@@ -73,6 +73,21 @@ def _least_width(by_column: Sequence[Sequence[str]], room: int) -> int:
     return sum(_least(column, room) + BETWEEN for column in by_column) - BETWEEN + 2
 
 
+def _widths(by_column: Sequence[Sequence[str]], room: int) -> list[int]:
+    """Of each column: as wide as its cells, or what is left is shared among those that break."""
+    widths = [_least(column, room) for column in by_column]
+    left = room - _least_width(by_column, room)
+    missing = [
+        max(map(len, column)) - width for column, width in zip(by_column, widths, strict=True)
+    ]
+    narrow = sorted(range(len(widths)), key=missing.__getitem__)
+    for done, place in enumerate(narrow):
+        more = max(0, min(missing[place], left // (len(narrow) - done)))
+        widths[place] += more
+        left -= more
+    return widths
+
+
 def _unbroken(by_column: Sequence[Sequence[str]]) -> str:
     """Columns, each with its head, a row a line: what `rich` makes of them, but at once."""
     from rich.cells import cell_len
@@ -98,12 +113,12 @@ def _print_grid(by_column: Sequence[Sequence[str]], room: int, *, headed: bool =
 
     # Text, not markup: columns and cells hold [brackets].
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_header=headed)
-    for column in by_column:
+    for column, width in zip(by_column, _widths(by_column, room), strict=True):
         head, *cells = column
         table.add_column(
             Text(head),
             justify="right" if all(map(_is_number, cells)) else "left",
-            min_width=_least(column, room),
+            width=width,  # that `rich` finds by itself may be less than a word's
             overflow="fold",
         )
     for row in zip(*(column[headed:] for column in by_column), strict=True):

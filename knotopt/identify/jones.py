@@ -19,8 +19,15 @@ Polynomial = dict[int, int]  # exponent to coefficient, without zeros
 Joined = tuple[tuple[int, int], ...]  # loose edges, in pairs joined by an arc; sorted
 
 
-def jones_polynomial(planar: PlanarDiagram) -> Polynomial:
+MAX_WIDTH = 16
+"""Loose ends of a part of a diagram, at most: they can be joined in 1,430 ways."""
+
+
+def jones_polynomial(planar: PlanarDiagram) -> Polynomial | None:
     """Jones polynomial in t: the coefficient of each power; t and 1/t change places in the mirror.
+
+    None for a diagram that is wider than `MAX_WIDTH`, in the order in which its crossings are
+    taken.
 
     Examples
     --------
@@ -32,7 +39,10 @@ def jones_polynomial(planar: PlanarDiagram) -> Polynomial:
     Time grows exponentially with the diagram's width (the most loose ends at any stage), linearly
     with its length; milliseconds for most diagrams of 30 crossings.
     """
-    bracket = _bracket(planar)
+    order = _in_order(planar)
+    if order is None:
+        return None
+    bracket = _bracket(order)
     writhe = planar.writhe
     # (-A^3)^-writhe times the bracket, at t = A^-4.
     sign = -1 if writhe % 2 else 1
@@ -48,15 +58,15 @@ def mirrored(polynomial: Polynomial) -> Polynomial:
     return {-power: coefficient for power, coefficient in reversed(polynomial.items())}
 
 
-def _bracket(planar: PlanarDiagram) -> Polynomial:
+def _bracket(order: list[Crossing]) -> Polynomial:
     """Kauffman's bracket, 1 for a circle, times A^crossings, in powers of A^2."""
-    crossings = len(planar.crossings)
+    crossings = len(order)
     if not crossings:
         return {0: 1}
     bits = 2 * crossings + 4  # 2 ** crossings states of at most crossings + 1 circles, with a sign
     raised = crossings + 2  # a power that all are raised by, so that none is negative
     sums: dict[Joined, int] = {(): 1 << bits * raised}
-    for a, b, c, d in _in_order(planar):
+    for a, b, c, d in order:
         after: dict[Joined, int] = {}
         for joined, value in sums.items():
             for arcs, power in ((((a, b), (c, d)), 1), (((a, d), (b, c)), 0)):
@@ -100,8 +110,8 @@ def _without_circle(powers: Polynomial) -> Polynomial:
     return quotient
 
 
-def _in_order(planar: PlanarDiagram) -> list[Crossing]:
-    """The crossings, each one that leaves fewest loose ends when it is added."""
+def _in_order(planar: PlanarDiagram) -> list[Crossing] | None:
+    """The crossings, each one that leaves fewest loose ends when it is added; None if too many."""
     left = [*planar.crossings]
     loose: set[int] = set()
     order = []
@@ -109,6 +119,8 @@ def _in_order(planar: PlanarDiagram) -> list[Crossing]:
         crossing = min(left, key=lambda each: len(loose.symmetric_difference(_once(each))))
         left.remove(crossing)
         loose ^= _once(crossing)
+        if len(loose) > MAX_WIDTH:
+            return None
         order.append(crossing)
     return order
 

@@ -27,8 +27,8 @@ from knotopt.reading.record import Asked
 
 _PLAIN = ("array", "list", "tuple", "vector", "matrix")
 
-MAX_CROSSINGS = 5000
-"""Of a code that is read; to draw one in the plane that tells no signs takes 2 s."""
+MAX_CROSSINGS = 1000
+"""Of a code that is read: to draw so many crossings on a grid and simplify it takes 20 s."""
 
 
 def check_crossings(count: int) -> None:

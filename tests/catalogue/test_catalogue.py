@@ -121,7 +121,7 @@ def test_knots_of_the_extra(name: str) -> None:
         ("7", UnknownKnotError, "nearest: 7 Var1, 7 Var2"),
         ("11a_999", UnknownKnotError, "KnotInfo has 11a_1 to 11a_367"),
         ("zzzzzz", UnknownKnotError, "`knotopt knots` lists the names"),
-        ("9" * 5000, FileFormatError, "no knot: '9999"),
+        ("9" * 5000, FileFormatError, "no knot in '9999"),
         ("", FileFormatError, "there is nothing in it"),
         ("T(2,4)", GridError, "a link of 2 components"),
         ("none.json", FileFormatError, "No such file"),

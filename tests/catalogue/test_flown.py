@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 
 import pytest
-from knotopt.identify.identify import identify
 
 from benchmarks.flown import CATALOGUE, LEAST, smallest_teams
 from knotopt.cable.cable import Cable
 from knotopt.catalogue.flown import FlownTeam, flown_teams
 from knotopt.catalogue.knots import shipped_knots
 from knotopt.flight.limits import ROOM
+from knotopt.identify.identify import identify
 
 
 def test_the_file_is_what_the_flights_give() -> None:

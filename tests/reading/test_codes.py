@@ -20,7 +20,7 @@ from knotopt.reading.content import Content
 from knotopt.reading.knot import read_knot
 from knotopt.reading.record import Asked
 from tests.helpers.knotinfo_codes import knotinfo_codes
-from tests.helpers.snappy_invariants import seifert_invariants
+from tests.helpers.snappy_invariants import homology_ranks, seifert_invariants
 from tests.helpers.understood import understood
 
 UNKNOT = PlanarDiagram(())
@@ -245,6 +245,31 @@ def test_knotinfos_cells_are_its_knots() -> None:
             title, diagram, notes = understood(cell)
             assert (title, notes) == (form, UP_TO_MIRROR), codes.name
             assert abs(signature(diagram)) == abs(codes.signature), codes.name
+
+
+@pytest.mark.slow
+def test_knotinfos_cells_are_one_knot_by_knot_floer_homology() -> None:
+    told_apart = 0
+    for codes in knotinfo_codes():
+        pd, braid, dt, gauss = (
+            homology_ranks(spherogram.Link(list(map(list, understood(cell)[1].pd_code))))
+            for cell in (codes.pd, codes.braid, codes.dt, codes.gauss)
+        )
+        mirrored = {(-alexander, -maslov): rank for (alexander, maslov), rank in pd.items()}
+        assert braid == pd, codes.name
+        assert dt in (pd, mirrored) and gauss in (pd, mirrored), codes.name
+        told_apart += pd != mirrored
+    assert told_apart > 170
+
+
+@pytest.mark.slow
+def test_cells_of_knotinfos_larger_knots() -> None:
+    """Every fiftieth one of 11 to 13 crossings, by the signature."""
+    for codes in knotinfo_codes(13)[249::50]:
+        for cell in (codes.pd, codes.braid):
+            assert signature(understood(cell)[1]) == codes.signature, codes.name
+        for cell in (codes.dt, codes.gauss):
+            assert abs(signature(understood(cell)[1])) == abs(codes.signature), codes.name
 
 
 @pytest.mark.slow

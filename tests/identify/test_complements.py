@@ -1,0 +1,40 @@
+"""SnapPy's isometries decide what invariants leave open: mutants, and their mirror images."""
+
+from __future__ import annotations
+
+import pytest
+
+from knotopt.catalogue.knotinfo import knotinfo_knots
+from knotopt.identify import complements
+from knotopt.identify import identify as identify_module
+from knotopt.identify.complements import are_isometric
+from knotopt.planar.from_grid import planar_diagram
+from tests.helpers.random_moves import moved_about
+
+pytest.importorskip("snappy")
+
+
+def test_mutants_and_mirror_images() -> None:
+    first = knotinfo_knots()["12n_56"].diagram
+    moved = planar_diagram(moved_about(first, 1))
+    for name in ("12n_56", "12n_57"):
+        planar = planar_diagram(knotinfo_knots()[name].diagram)
+        assert are_isometric(moved, planar) == (name == "12n_56")
+        assert not are_isometric(moved, planar.mirrored)
+
+
+def test_torus_knots_have_no_hyperbolic_complement() -> None:
+    planar = planar_diagram(knotinfo_knots()["8_19"].diagram)
+    assert not are_isometric(planar, planar)
+
+
+def test_what_is_left_with_and_without(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(identify_module, "IF_NEEDED", {})
+    diagram = moved_about(knotinfo_knots()["12n_57"].diagram.mirrored, 2, 1)
+    found = identify_module.identify(diagram)
+    assert found.name == "m12n_57" and found.proven
+    assert found.by[-1] == "isometry of complements"
+    monkeypatch.setattr(complements, "is_installed", lambda: False)
+    found = identify_module.identify(diagram)
+    assert "m12n_57" in found.candidates and len(found.candidates) > 1
+    assert found.name is None and not found.proven
