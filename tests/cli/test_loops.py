@@ -43,7 +43,7 @@ def test_json(cli: Cli) -> None:
     safe, plain = cli.json(*span), cli.json(*span, "--with", "none")
     assert (safe["with"], plain["with"]) == ("loops", "none") and plain["disjoint_loops"] == []
     assert len(safe["disjoint_loops"]) == 1 and safe["instance"] != plain["instance"]
-    opening = ("solve", "4", "--cut", "L+")
+    opening = ("solve", "4", "--formulation", "opening", "--cut", "L+")
     assert cli.json(*opening)["robots_after"] == 5
     assert cli.json(*opening, "--with", "loops")["robots_after"] == 6
 
@@ -51,7 +51,7 @@ def test_json(cli: Cli) -> None:
 def test_each_cut_by_itself(cli: Cli) -> None:
     out = cli("solve", "4", "--formulation", "loops", "--cut", "all")[1]
     assert out.startswith("4_1: loops\n")
-    out = cli("solve", "3", "--with", "loops", "--cut", "all")[1]
+    out = cli("solve", "3", "--formulation", "opening", "--with", "loops", "--cut", "all")[1]
     assert "opening with loops, threading turning-point, r 0.5" in out
 
 
@@ -73,7 +73,7 @@ def test_prove_and_check(cli: Cli, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("solve", "3", "--with", "pockets"), "is one of loops, none"),
+        (("solve", "3", "--formulation", "span", "--with", "pockets"), "is one of loops, none"),
         (("solve", "3", "--formulation", "loops", "--r", "0.3"), "loops has no openness"),
         (("prove", "3", "--formulation", "loops", "--r", "0.3"), "loops has no openness"),
         (("prove", "3", "--method", "disjoint loops"), "expected refutation or count"),
