@@ -1,7 +1,7 @@
 """How large a grid each command takes, so that a larger one is refused before any work.
 
-Measured on random grids, which have about N² / 9 crossings: what one slow core does in about a minute
-and 4 GiB. Sparse grids of the same size take less.
+Measured on random grids, which have about N² / 9 crossings: what one slow core does in about a
+minute and 4 GiB. Sparse grids of the same size take less.
 """
 
 from __future__ import annotations
@@ -42,6 +42,6 @@ def check_size(diagram: GridDiagram, job: str) -> None:
     most = LARGEST[job]
     if diagram.size > most:
         raise GridError(
-            f"a grid of size {diagram.size} is too large for {job}, which takes sizes up to {most}: "
-            "about a minute of work; a simpler diagram of the knot may do"
+            f"a grid of size {diagram.size} is too large for {job}, which takes sizes up to {most}"
+            ": about a minute of work; a simpler diagram of the knot may do"
         )
