@@ -71,7 +71,7 @@ BY_NAME = {
     "knotopt": "the public names, when they are first used (lazy_loader)",
     "knotopt.atlas.engine": "distributed, of the extra, where a cluster is asked for",
     "knotopt.cli.app": "a command's module, when the command is asked for",
-    "knotopt.laid.invariants": "knot_floer_homology, where it is installed",
+    "knotopt.laid.invariants": "knot Floer homology, of the extra, where it is installed",
     "knotopt.showing": "knotopt.plot.pictures, when a result is asked for its picture",
     "formulations.backends": "a solver's module, when the solver is asked for",
 }

@@ -10,7 +10,13 @@ import typer
 from formulations.backends import DEFAULT
 from formulations.solution import Limits
 from knotopt.cli import options
-from knotopt.cli.formulations import ThreadingOption, WhichFormulationOption, WithOption, with_loops
+from knotopt.cli.formulations import (
+    ThreadingOption,
+    WhichFormulationOption,
+    WithOption,
+    check_openness,
+    with_loops,
+)
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import logged_bar, status_line, track
 from knotopt.cli.reading import read
@@ -170,6 +176,7 @@ def solve(
             as_json=as_json,
         )
         return
+    check_openness(formulation or LOOPS, r)
     asked = Requirements(
         formulation or LOOPS,
         r,
