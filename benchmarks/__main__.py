@@ -20,6 +20,7 @@ from rich.progress import track
 
 from benchmarks import (  # noqa: F401 -- they register themselves
     certificates,
+    diagrams,
     formulations_catalogue,
     formulations_growth,
     grids_catalogue,
@@ -176,6 +177,7 @@ def machine_facts() -> dict[str, Any]:
         "pythoncdt",
         "shapely",
         "mujoco",
+        "numba",
     )
     processor = _processor()
     return {

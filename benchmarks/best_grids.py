@@ -7,6 +7,7 @@ the runs and grids solved, which are stored with it; for safe sets these depend 
 from __future__ import annotations
 
 import json
+import signal
 from collections.abc import Iterator
 from dataclasses import replace
 from enum import StrEnum
@@ -54,6 +55,7 @@ def main(
     most_runs: Annotated[int, typer.Option(help="Of one knot, for laid.")] = 60,
 ) -> None:
     """Search the best grids of all knots of the catalogue."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # a search would end early, and count as done
     header = json.dumps([kind, most_runs])
     with resumable_lines(out / f"{kind}_grids.json", header, _listed) as lines:
         done = {json.loads(line)["knot"] for line in lines.done}

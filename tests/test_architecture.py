@@ -69,6 +69,7 @@ BY_NAME = {
     "knotopt": "the public names, when they are first used (lazy_loader)",
     "knotopt.atlas.engine": "distributed, of the extra, where a cluster is asked for",
     "knotopt.cli.app": "a command's module, when the command is asked for",
+    "knotopt.laid.invariants": "packages of extras, where a knot is looked at by them",
     "knotopt.showing": "knotopt.plot.pictures, when a result is asked for its picture",
     "formulations.backends": "a solver's module, when the solver is asked for",
 }

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from benchmarks import headlines, results
 from benchmarks.plots import (
+    diagrams,
     formulations,
     grids,
     heuristics,
@@ -28,6 +29,7 @@ PAGES: dict[str, Callable[[], tuple[list[str], dict[str, Figure]]]] = {
     "paths.md": paths.write_parts,
     "physics.md": physics.write_parts,
     "topology.md": topology.write_parts,
+    "diagrams.md": diagrams.write_parts,
     "versions.md": versions.write_parts,
 }
 """File of a page to what gives its parts and its figures by file name."""

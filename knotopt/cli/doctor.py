@@ -20,6 +20,7 @@ EXTRAS = {
     "atlas": "pyarrow",
     "cluster": "distributed",
     "pandas": "pandas",
+    "fast": "numba",
 }
 PACKAGES = (
     "knotopt",

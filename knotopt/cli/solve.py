@@ -14,6 +14,7 @@ from knotopt.cli.formulations import FormulationOption, ThreadingOption, WithOpt
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import logged_bar, status_line, track
 from knotopt.cli.reading import read
+from knotopt.cli.sizes import check_size
 from knotopt.cli.solve_diagrams import (
     BudgetOption,
     DiagramsOption,
@@ -169,6 +170,7 @@ def solve(
     flights = FlightOptions(noise, trials, physics_budget, max_cut, None if diagrams else out)
     (flights.tests if verify_physics else flights.check_unused)()
     named = read(knot)
+    check_size(named.diagram.size, "solve", **{f"--formulation {formulation}": True})
     if verify_physics:
         if cut == "all":
             options.refuse("--cut", "with --verify-physics, give --cut best or a cut's name")
@@ -301,19 +303,12 @@ def _write(
     """Write the picture (if there is a set) and the program; return what was written."""
     written = []
     if plot is not None and result.found:
-        from knotopt.plot.figures import loops_figure, save_figure, supports_figure
-        from knotopt.supports.registry import find_formulation
+        from knotopt.plot.figures import save_figure, smallest_figure
 
         asked = result.requirements
         title = f"{name}, cut {result.cable.cut}: {result.robots} robots"
         title += f" ({asked.words}{asked_in_words(asked)})"
-        rules = find_formulation(asked.formulation)
-        if rules.has_openness:
-            regions = result.lcf.regions
-            figure = supports_figure(regions, result.supports, title, taut=rules.is_taut)
-        else:
-            figure = loops_figure(result.cable, result.supports, result.disjoint_loops, title)
-        save_figure(figure, plot)
+        save_figure(smallest_figure(result, title), plot)
         written.append(plot)
     if export is not None:
         from formulations.export import FORMATS

@@ -15,8 +15,15 @@ def laid_facts(search: CutSearch) -> list[tuple[str, str]]:
     words = f"but for {lost}, redundant" if lost else "the grid's diagram"
     return [
         ("laid", f"the knot by {content['compared_by']}: {words}"),
-        ("cut off", f"{content['cut_off']} sets that lay another knot, others with each of them"),
+        ("cut off", _cut_off(content["cut_off"])),
     ]
+
+
+def _cut_off(count: int) -> str:
+    if count == 0:
+        return "no set"
+    sets = "1 set that lays" if count == 1 else f"{count} sets that lay"
+    return f"{sets} another knot, and others with {'it' if count == 1 else 'each'}"
 
 
 def laid_json(search: CutSearch) -> dict[str, Any]:

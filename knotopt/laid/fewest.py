@@ -42,12 +42,16 @@ class FewestRobots:
     standing : Standing
     assumptions : tuple of str
         Under which it is proven.
+    against : str
+        A simulated flight that left the assumptions and tied a knot with fewer robots, "" if none
+        is known.
     """
 
     robots: int
     why: str
     standing: Standing
     assumptions: tuple[str, ...]
+    against: str = ""
 
 
 UNKNOT = FewestRobots(2, "two robots hold the cable's ends", Standing.TRIVIAL, ())
@@ -62,6 +66,7 @@ OTHER = FewestRobots(
     "with one support only T(2, n) and their connected sums are tied",
     Standing.PROVEN,
     (STRAIGHT, NO_SELF_CROSSING, WINDINGS, TIGHT),
+    "a leader that crossed its own tether, unplanned, tied 5_2 with three robots",
 )
 
 

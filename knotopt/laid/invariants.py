@@ -10,12 +10,14 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from knotopt.cable.alexander import alexander_from_gauss
+from knotopt.errors import DiagramError
 from knotopt.planar.gauss import from_visits
 from knotopt.planar.planar_diagram import PlanarDiagram
 from knotopt.planar.signature import signature
@@ -66,7 +68,12 @@ class Invariants:
             return UNKNOT
         package: Any = importlib.import_module(HOMOLOGY)
         code = [list(crossing) for crossing in self.reduced.pd_code]
-        return tuple(sorted(package.pd_to_hfk(code)["ranks"].items()))
+        ranks = tuple(sorted(package.pd_to_hfk(code)["ranks"].items()))
+        # The package takes reduced diagrams only, and does not say so: its Euler characteristic is
+        # the polynomial.
+        if _euler(ranks) != self.alexander:
+            raise DiagramError(f"{HOMOLOGY} contradicts the Alexander polynomial of {self.planar}")
+        return ranks
 
     def apart(self, other: Invariants) -> str | None:
         """The first invariant that tells the two knots apart, in words; None if none does."""
@@ -75,6 +82,16 @@ class Invariants:
         if self.signature != other.signature:
             return "signature"
         return "knot Floer homology" if self.homology != other.homology else None
+
+
+def _euler(ranks: Ranks) -> tuple[int, ...]:
+    """Graded Euler characteristic: coefficients, the last one positive."""
+    sums: Counter[int] = Counter()
+    for (alexander, maslov), rank in ranks:
+        sums[alexander] += rank if maslov % 2 == 0 else -rank
+    degrees = [degree for degree, total in sums.items() if total]
+    found = [sums[degree] for degree in range(min(degrees), max(degrees) + 1)]
+    return tuple(total if found[-1] > 0 else -total for total in found)
 
 
 def compared_by() -> str:
@@ -86,7 +103,10 @@ def compared_by() -> str:
 
 
 def without_kinks(planar: PlanarDiagram) -> PlanarDiagram:
-    """The diagram after Reidemeister's first and second moves, as long as they take crossings away.
+    """A diagram of the same knot, as far as crossings go away that are easily seen not to matter.
+
+    These are nugatory crossings, which part the diagram in two (kinks are the simplest), and pairs
+    of Reidemeister's second move.
 
     Examples
     --------
@@ -103,10 +123,17 @@ def without_kinks(planar: PlanarDiagram) -> PlanarDiagram:
 
 
 def _kink(visits: list[tuple[int, bool]]) -> set[int]:
-    """A crossing that the knot visits twice in turn (first move)."""
-    for (crossing, _), (following, _) in zip(visits[-1:] + visits, visits, strict=False):
-        if crossing == following:
-            return {crossing}
+    """A crossing between whose visits every other one is visited twice, or not at all.
+
+    It joins two parts of the knot, which are summands however they are joined.
+    """
+    first: dict[int, int] = {}
+    for place, (crossing, _) in enumerate(visits):
+        start = first.setdefault(crossing, place)
+        if start < place:
+            between = Counter(other for other, _ in visits[start + 1 : place])
+            if all(count == 2 for count in between.values()):
+                return {crossing}
     return set()
 
 

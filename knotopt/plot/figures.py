@@ -56,31 +56,19 @@ def set_figure(chosen: SupportSet, title: str) -> Figure:
     return titled(figure, title, draw_robots(axes, chosen.cable, chosen.supports))
 
 
-def supports_figure(
-    regions: Regions, supports: Collection[int], title: str, *, taut: bool = False
-) -> Figure:
-    """One panel: supports, active regions shaded by layer, passive ones hatched.
-
-    With `taut`, also the straight spans between consecutive robots.
-    """
+def supports_figure(regions: Regions, supports: Collection[int], title: str) -> Figure:
+    """One panel: supports, active regions shaded by layer, passive ones hatched."""
     figure, (axes,) = _panels(1, regions.cable.diagram.size)
     shades = draw_regions(axes, regions)
     draw_cable(axes, regions.cable)
     handles = draw_robots(axes, regions.cable, supports)
-    if taut:
-        handles += draw_spans(axes, regions.cable, supports)
     return titled(figure, title, [*handles, *shades])
 
 
-def loops_figure(
-    cable: Cable, supports: Collection[int], loops: Sequence[int], title: str
-) -> Figure:
-    """One panel: supports, the taut cable, and loops, by their crossings' indices, in colours."""
-    figure, (axes,) = _panels(1, cable.diagram.size)
-    handles: list[Artist] = [*draw_loops(axes, cable, loops)]
-    draw_cable(axes, cable)
-    robots = draw_robots(axes, cable, supports)
-    return titled(figure, title, [*robots, *draw_spans(axes, cable, supports), *handles])
+def smallest_figure(result: MinimalSupports, title: str) -> Figure:
+    """One panel: a smallest set, and what it is needed for."""
+    figure, (axes,) = _panels(1, result.cable.diagram.size)
+    return titled(figure, title, _draw_smallest(axes, result))
 
 
 def before_after_figure(result: LcfResult, title: str) -> Figure:
@@ -114,19 +102,31 @@ def figure_bytes(figure: Figure, format: str) -> bytes:
 
 
 def minimal_figure(results: Sequence[MinimalSupports], title: str) -> Figure:
-    """One panel a result, one above the other: its smallest set and the taut cable."""
+    """One panel a result, one above the other: its smallest set, and what it is needed for."""
     figure, panels = _panels(len(results), *(result.cable.diagram.size for result in results))
-    handles: list[Artist] = []
+    handles: dict[str, Artist] = {}
     for axes, result in zip(panels, results, strict=True):
-        cable = result.cable
-        shades = draw_regions(axes, result.lcf.regions)
-        draw_cable(axes, cable)
-        handles = [*draw_robots(axes, cable, result.supports), *shades]
-        kind = result.requirements
-        if find_formulation(kind.formulation).is_taut:
-            handles += draw_spans(axes, cable, result.supports)
-        axes.set_title(f"{kind.words}, cut {cable.cut}: {result.robots} robots", fontsize=9)
-    return titled(figure, title, handles)
+        handles |= {str(each.get_label()): each for each in _draw_smallest(axes, result)}
+        words = f"{result.requirements.words}, cut {result.cable.cut}: {result.robots} robots"
+        axes.set_title(words, fontsize=9)
+    return titled(figure, title, list(handles.values()))
+
+
+def _draw_smallest(axes: Axes, result: MinimalSupports) -> list[Artist]:
+    """A smallest set, and below it the regions that it keeps open, or the loops that show that no
+    smaller one would do.
+    """
+    cable, rules = result.cable, find_formulation(result.requirements.formulation)
+    below: Sequence[Artist] = (
+        draw_regions(axes, result.lcf.regions)
+        if rules.has_openness
+        else draw_loops(axes, cable, result.disjoint_loops)
+    )
+    draw_cable(axes, cable)
+    handles = draw_robots(axes, cable, result.supports)
+    if rules.is_taut:
+        handles += draw_spans(axes, cable, result.supports)
+    return [*handles, *below]
 
 
 def titled(figure: Figure, title: str, handles: Sequence[Artist], columns: int = 2) -> Figure:

@@ -1,5 +1,5 @@
 """A knot by its name: KnotInfo's and others', in words, torus knots, rows of Table I, and of those
-mirror images (m3_1) and connected sums (3_1#m3_1).
+mirror images (m3_1), connected sums (3_1#m3_1) and the grids searched for them ("8_19 best3").
 """
 
 from __future__ import annotations
@@ -10,10 +10,12 @@ from dataclasses import dataclass, replace
 from knotopt.catalogue.everyday_names import everyday_names, plain
 from knotopt.catalogue.knots import PrimeKnot
 from knotopt.catalogue.prime_names import numbered, prime_named
+from knotopt.catalogue.stored_grids import GRIDS, stored_grids
 from knotopt.catalogue.table1_grids import table1_grids
 from knotopt.diagram.families import torus_knot
 from knotopt.diagram.grid import GridDiagram
 from knotopt.diagram.sums import connected_sum
+from knotopt.errors import UnknownKnotError
 from knotopt.reading.content import Content
 from knotopt.reading.near_names import unknown
 from knotopt.reading.record import Asked, Reading
@@ -23,6 +25,7 @@ _DEEPEST = 10  # mirror images of mirror images
 _MIRROR_BEFORE = re.compile(
     r"(?:mirror(?:\s+image)?(?:\s+of)?(?![a-z])|m(?![a-z]{2})|[-\u2212])\s*", re.IGNORECASE
 )
+_BEST = re.compile(r"(.*?\S)\s+(?:best\s*([34])|safe\s*(0?\.25|0?\.5)?)", re.IGNORECASE)
 _TORUS = re.compile(
     r"(?:t|torus|torus\s*knot)\s*(?:_\s*)?[({\[]\s*([-\u2212]?[0-9]{1,18})\s*,"
     r"\s*([-\u2212]?[0-9]{1,18})\s*[)}\]]",
@@ -40,7 +43,8 @@ def read(content: Content, _asked: Asked) -> Reading | None:
     MissingExtraError
         A knot of 11 to 13 crossings without the `knotinfo` extra.
     UnknownKnotError
-        A connected sum of which one summand, but not every one, is a knot.
+        A connected sum of which one summand, but not every one, is a knot; or a grid that is not
+        stored.
     """
     text = content.text.strip()
     if len(text) > LONGEST or "\n" in text:
@@ -145,6 +149,10 @@ def _single(text: str) -> _Named | None:
     for grid in table1_grids():
         if squeezed == grid.row.replace(" ", "").casefold():
             return _Named(grid.knot, grid.diagram, f"Table I, row {grid.row}")
+    best = _BEST.fullmatch(text)
+    if best:
+        openness = f"{float(best[3] or 0.5):g}"
+        return _stored(best[1], f"best{best[2]}" if best[2] else f"safe{openness}")
     torus = _TORUS.fullmatch(text)
     if torus:
         p, q = (int(number.replace("\u2212", "-")) for number in torus.groups())
@@ -156,6 +164,21 @@ def _single(text: str) -> _Named | None:
         notes = () if name == knot.name else (note,)
         return _Named(knot.name, knot.diagram, "KnotInfo", notes, knot)
     return _in_words(text)
+
+
+def _stored(text: str, name: str) -> _Named | None:
+    """A knot's grid that was searched for; of a mirror image, the grid's mirror image."""
+    knot = _knot(text, _DEEPEST)
+    if knot is None:
+        return None
+    stored = stored_grids().get((knot.name.removeprefix("m"), name))
+    if stored is None:
+        raise UnknownKnotError(
+            f"no grid {name} is stored of {knot.name}: {', '.join(GRIDS)} are of the "
+            "prime knots up to 10 crossings"
+        )
+    diagram = stored.diagram.mirrored if knot.name.startswith("m") else stored.diagram
+    return replace(knot, diagram=diagram, source=f"{knot.source}; best grid found, {GRIDS[name]}")
 
 
 def _in_words(text: str) -> _Named | None:

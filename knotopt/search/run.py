@@ -22,6 +22,9 @@ from knotopt.search.loops import NONE, fewest_robots, find_crossings
 STEPS = 10_000
 """Steps of a run for each line of the given grid."""
 
+LONG_FROM, LONGER = 40, 10
+"""Once so many runs have not found enough, the next ones are so many times as long."""
+
 ROOM = 4
 """How many lines larger than the given grid others may be."""
 
@@ -91,7 +94,8 @@ def run(diagram: GridDiagram, number: int, seed: int = 0, *, compile: bool | Non
     lines = lines_of(diagram, widest)
     source = random.Random(f"{seed} {number}")
     state = [diagram.size, source.randrange(1, DRAWN), source.randrange(1, DRAWN)]
-    plan = [STEPS * diagram.size, widest, LEVELS, ENERGIES, *WEIGHTS[number % len(WEIGHTS)]]
+    steps = STEPS * diagram.size * (LONGER if number >= LONG_FROM else 1)
+    plan = [steps, widest, LEVELS, ENERGIES, *WEIGHTS[number % len(WEIGHTS)]]
     best, kept = listed([NONE] * ROBOTS), empty(ROBOTS * 2 * widest)
     walk = compiled(anneal) if compile else anneal
     looked = walk(

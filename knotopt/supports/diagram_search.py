@@ -104,6 +104,7 @@ def find_diagram(
     seed: int = 0,
     *,
     known: tuple[GridSearch, Walk | None] | None = None,
+    starts: Sequence[GridDiagram] = (),
     solver: str = DEFAULT,
     limits: Limits | None = None,
     compile: bool | None = None,
@@ -123,6 +124,8 @@ def find_diagram(
     seed : int
     known : (GridSearch, Walk or None), optional
         What an earlier search found, to go on from.
+    starts : sequence of GridDiagram
+        Grids of the same knot, such as stored ones, to solve before those that the search finds.
     solver, limits
         As for `best_supports`, for the diagram found.
     compile : bool, optional
@@ -151,7 +154,7 @@ def find_diagram(
         if budget.seconds is not None:
             left = budget.seconds - (time.monotonic() - start)
             solving = replace(budget, seconds=max(left, 0.5 * budget.seconds))
-        walk = _Walker(grids, asked, solver).walk(walk, solving, progress)
+        walk = _Walker(grids, starts, asked, solver).walk(walk, solving, progress)
     best = best_supports(walk.best, asked, solver=solver, limits=limits)
     return DiagramSearch(best, grids, walk)
 
@@ -159,10 +162,17 @@ def find_diagram(
 class _Walker:
     """Goes from grid to grid, each solved for what is asked."""
 
-    def __init__(self, grids: GridSearch, asked: Requirements, solver: str) -> None:
+    def __init__(
+        self,
+        grids: GridSearch,
+        starts: Sequence[GridDiagram],
+        asked: Requirements,
+        solver: str,
+    ) -> None:
         self._asked, self._solver, self._seed = asked, solver, grids.seed
         self._given = grids.diagram
-        self._starts = [found.diagram for found in sorted(grids.found, key=lambda f: f.counts)]
+        found = sorted(grids.found, key=lambda each: each.counts)
+        self._starts = [*starts, *(each.diagram for each in found)]
         self._known: dict[GridDiagram, tuple[float, float | None]] = {}
 
     def walk(

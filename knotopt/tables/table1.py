@@ -80,7 +80,7 @@ class Table1Result:
         Of `COLUMNS`.
     lcf : LcfResult
     smallest : tuple of MinimalSupports
-        One a formulation.
+        By `USUAL_PROGRAMS`, in that order.
     relaxed, optimised : PathResult
         The paths of LCF's set.
     """

@@ -10,6 +10,9 @@ from knotopt.errors import DiagramError
 from knotopt.planar.gauss import from_visits
 from knotopt.planar.planar_diagram import PlanarDiagram
 
+Winding = tuple[int, bool]
+"""How many crossings, and whether they run inwards."""
+
 
 @dataclass(frozen=True)
 class RayLetter:
@@ -35,7 +38,7 @@ def diagram(letters: Sequence[RayLetter]) -> PlanarDiagram | None:
         return None
 
 
-def windings(count: int) -> Iterator[tuple[tuple[int, bool], ...]]:
+def windings(count: int) -> Iterator[tuple[Winding, ...]]:
     """Every way of dividing letters into windings: (letters, inwards) of each."""
     if count == 0:
         yield ()
@@ -45,7 +48,7 @@ def windings(count: int) -> Iterator[tuple[tuple[int, bool], ...]]:
                 yield ((first, inwards), *rest)
 
 
-def distances(turns: Sequence[tuple[int, bool]]) -> list[int]:
+def distances(turns: Sequence[Winding]) -> list[int]:
     """Of each letter: every winding lies beyond those before, and is monotone."""
     found: list[int] = []
     for count, inwards in turns:

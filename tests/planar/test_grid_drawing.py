@@ -91,6 +91,13 @@ def test_large_prime_diagrams() -> None:
         assert invariants_of(small) == invariants_of(planar)
 
 
+@pytest.mark.slow
+def test_large_prime_diagrams_by_knot_floer_homology() -> None:
+    for planar in random_diagrams():
+        if len(planar.crossings) <= 40:
+            assert invariants(small_grid(planar)).ranks == homology_ranks(link_of(planar))
+
+
 @settings(max_examples=200)
 @given(planar_diagrams(max_size=14))
 def test_diagrams_with_kinks_and_summands(planar: PlanarDiagram) -> None:

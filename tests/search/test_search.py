@@ -22,6 +22,7 @@ from tests.helpers.snappy_invariants import invariants
 @pytest.fixture(autouse=True)
 def short_runs(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(single, "STEPS", 300)
+    monkeypatch.setattr(single, "can_compile", lambda: False)
 
 
 @pytest.mark.parametrize("name", ["3_1", "4_1", "5_2", "7_7", "8_19", "9_47", "10_161"])
@@ -49,6 +50,7 @@ def test_what_is_kept_of_a_run(size: int, seed: int) -> None:
     assert same and same[0].counts <= given_grid.counts
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(find_spec("numba") is None, reason="needs numba")
 @pytest.mark.parametrize("diagram", [torus_knot(3, 4), random_knot(13, 5), random_knot(40, 2)])
 def test_compiled_or_not_the_same_is_found(diagram: object) -> None:
@@ -60,7 +62,11 @@ def test_compiled_or_not_the_same_is_found(diagram: object) -> None:
         assert compiled == plain
 
 
-def test_grids_too_large_for_64_bits_are_searched_in_python() -> None:
+def test_grids_too_large_for_64_bits_are_searched_in_python(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.undo()
+    monkeypatch.setattr(single, "STEPS", 10)
     made = run(random_knot(single.WIDEST, 1), 0)
     assert made.looked > 0 and made.found
 
