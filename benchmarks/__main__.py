@@ -20,10 +20,14 @@ from rich.progress import track
 
 from benchmarks import (  # noqa: F401 -- they register themselves
     certificates,
+    diagrams,
     formulations_catalogue,
     formulations_growth,
+    grids_catalogue,
+    heuristics_flown,
     lcf_catalogue,
     lcf_growth,
+    loops,
     paths_catalogue,
     paths_growth,
     paths_stiffness,
@@ -173,6 +177,7 @@ def machine_facts() -> dict[str, Any]:
         "pythoncdt",
         "shapely",
         "mujoco",
+        "numba",
     )
     processor = _processor()
     return {

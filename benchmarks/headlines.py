@@ -77,6 +77,14 @@ def _where(key: str, unit: float = 1, **case: Any) -> Values:
     )
 
 
+def _at_arc_index(form: str) -> Values:
+    return lambda row: [number >= len(row[form]["larger"]) for number in range(row["knots"])]
+
+
+def _grid_times(form: str) -> Values:
+    return lambda row: row[form]["milliseconds"]
+
+
 def _of_cuts(key: str) -> Values:
     return lambda row: [cut[key] for cut in row["cuts"].values()]
 
@@ -118,6 +126,23 @@ MS = 1e-3  # [s]
 HEADLINES = (
     Headline("startup", "`knotopt --help` [s]", _where("seconds", arguments=["--help"])),
     Headline("startup", "`knotopt table1` [s]", _where("seconds", arguments=["table1"])),
+    *(
+        headline
+        for form, made_from in (("planar", "PD codes"), ("braid", "braid words"))
+        for headline in (
+            Headline(
+                "grids_catalogue",
+                f"grids from {made_from} at the arc index [%]",
+                _at_arc_index(form),
+                percent,
+            ),
+            Headline(
+                "grids_catalogue",
+                f"a grid from {made_from} [ms, median]",
+                _grid_times(form),
+            ),
+        )
+    ),
     Headline(
         "lcf_catalogue",
         f"LCF at N = {SPEED_AT}, a cut [ms, median]",
@@ -136,6 +161,13 @@ HEADLINES = (
             ("a cut [ms, median]", "_ms", median),
             ("a cut [ms, worst]", "_ms", max),
         )
+    ),
+    Headline("loops", "`loops`, a cut [robots, mean]", _of_cuts("loops"), mean),
+    Headline("loops", "sweep, a cut [ms, worst]", _of_cuts("sweep_ms"), max),
+    Headline(
+        "loops",
+        "CP-SAT's time over the sweep's with its rows [median]",
+        lambda row: [c["cp_sat_ms"] / c["rows_and_sweep_ms"] for c in row["cuts"].values()],
     ),
     *(
         Headline(

@@ -35,13 +35,13 @@ NOISE = 0.01  # of robots' positions [m]
 SEEDS = (1, 2, 3, 4, 5)
 ATTEMPTS = 3  # rehearsals of a set
 METHODS: dict[str, tuple[str, Requirements | None]] = {
-    "span 0.25": ("milp", Requirements("span", 0.25)),
+    "span 0.25": ("milp", Requirements("span", 0.25, with_loops=False)),
     "lcf": ("lcf", None),
     "all": ("all", None),
     "none": ("none", None),
     "opening 0.5": ("milp", Requirements("opening", 0.5)),
-    "span 0.5": ("milp", Requirements("span", 0.5)),
-    "random": ("random", Requirements("span", 0.25)),
+    "span 0.5": ("milp", Requirements("span", 0.5, with_loops=False)),
+    "random": ("random", Requirements("span", 0.25, with_loops=False)),
 }
 RANDOM, SMALL = 2, 3  # random sets of as many supports as the smallest has, for the first rows
 OPTIMAL = 20  # sets of `span` at most, of all optimal ones

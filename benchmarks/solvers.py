@@ -16,7 +16,6 @@ from knotopt.cable.cut import crossing_free_cuts
 from knotopt.catalogue.knots import shipped_knots
 from knotopt.supports.lcf import lcf
 from knotopt.supports.minimal import compile_program
-from knotopt.supports.registry import FORMULATIONS
 from knotopt.supports.requirements import Requirements
 
 LIMITS = Limits(seconds=60)
@@ -28,7 +27,7 @@ def cases(smoke: bool) -> Iterable[Case]:
     """One case a knot and formulation."""
     names = list(shipped_knots())
     for name in names[:2] if smoke else names:
-        for formulation in FORMULATIONS:
+        for formulation in ("opening", "span"):
             yield {"knot": name, "formulation": formulation}
 
 
@@ -37,7 +36,7 @@ def measure(case: Case) -> Result:
     for name in BACKENDS:
         warm(name)
     knot = shipped_knots()[case["knot"]]
-    asked = Requirements(case["formulation"])
+    asked = Requirements(case["formulation"], with_loops=False)
     cuts = crossing_free_cuts(knot.diagram)
     is_span = asked.formulation == "span"
     runs: list[dict[str, Any]] = []

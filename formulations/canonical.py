@@ -7,12 +7,16 @@ from typing import Protocol
 
 from formulations.arrays import FloatArray
 from formulations.instance import Instance, Row
-from formulations.solution import Backend, Limits, Status
+from formulations.solution import Backend, Limits, Solution, Status
 from formulations.timing import Deadline
 
 
 class Program(Protocol):
-    """A formulation whose rows depend on an openness."""
+    """A formulation whose rows depend on an openness.
+
+    It may also have `at_once`: the canonical one of its smallest sets as a `Solution` that needs no
+    solver, or None where it cannot tell.
+    """
 
     @property
     def levels(self) -> FloatArray:
@@ -22,6 +26,12 @@ class Program(Protocol):
     def instance(self, openness_squared: float) -> Instance:
         """The 0-1 program for one openness."""
         ...
+
+
+def at_once(program: Program) -> Solution | None:
+    """The canonical one of a program's smallest sets, if the program gives it without a solver."""
+    known: Solution | None = getattr(program, "at_once", None)
+    return known
 
 
 def widest(

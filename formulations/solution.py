@@ -55,6 +55,9 @@ class MissingSolverError(BackendError):
         self.backend, self.package, self.extra = backend, package, extra
 
 
+MOST_THREADS = 1024
+
+
 @dataclass(frozen=True)
 class Limits:
     """When a solver stops, and how it may run.
@@ -86,6 +89,10 @@ class Limits:
             raise BackendError(f"the gap must lie in [0, 1), not {self.gap}")
         if self.threads < 1:
             raise BackendError(f"the number of threads must be at least 1, not {self.threads}")
+        if self.threads > MOST_THREADS:
+            raise BackendError(
+                f"the number of threads is at most {MOST_THREADS}, not {self.threads}"
+            )
         if not 0 <= self.seed < 2**31:
             raise BackendError(f"the seed must lie in [0, 2^31), not {self.seed}")
 

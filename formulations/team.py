@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from formulations.instance import Row
 
@@ -24,12 +25,22 @@ class ReachTarget:
     origin: str
 
 
+class Stretch(NamedTuple):
+    """The points `first` ... `last` of a path, of which one at least must carry a robot."""
+
+    first: int
+    last: int
+    origin: str
+
+
 @dataclass(frozen=True)
 class Team:
     """Optional families; each is off while empty.
 
     Attributes
     ----------
+    stretches : tuple of Stretch
+        All of them are to be pierced (`loops`).
     too_close : tuple of (u, w)
         Pairs of points that must not both carry a robot (`separation`).
     too_long : tuple of (u, w), u < w
@@ -40,16 +51,20 @@ class Team:
     excluded : tuple of tuple of int
         Sets of points between the ends that are not the answer: each is ruled out by itself, not
         the sets that contain it.
+    clauses : tuple of tuple of int
+        Of each, one literal at least holds: +k, point k carries a robot; -k, it does not.
     at_most : int or None
         Robots there are, lifting robots included.
     """
 
+    stretches: tuple[Stretch, ...] = ()
     too_close: tuple[tuple[int, int], ...] = ()
     too_long: tuple[tuple[int, int], ...] = ()
     reach: tuple[ReachTarget, ...] = ()
     forbidden: tuple[int, ...] = ()
     forced: tuple[int, ...] = ()
     excluded: tuple[tuple[int, ...], ...] = ()
+    clauses: tuple[tuple[int, ...], ...] = ()
     at_most: int | None = None
 
     def rows(self, points: int) -> Iterable[Row]:
@@ -57,6 +72,9 @@ class Team:
         # Lifting robots hold the two ends: x_1 = x_n = 1.
         for end in (1, points):
             yield Row((end,), 1, "ends", f"lifting robot p{end}")
+        # Loops: a robot on every stretch.
+        for stretch in self.stretches:
+            yield Row(stretch_literals(stretch), 1, "loops", stretch.origin)
         # Separation: x_u + x_w <= 1 for points too close to each other.
         for u, w in self.too_close:
             yield Row((-u, -w), 1, "separation", f"p{u} and p{w}")
@@ -73,6 +91,9 @@ class Team:
             literals = tuple(-k if k in points_held else k for k in range(2, points))
             origin = " ".join(f"p{k}" for k in points_held) or "no supports"
             yield Row(literals, 1, "excluded", origin)
+        # Cuts: what sets that failed a test say of others.
+        for literals in self.clauses:
+            yield Row(literals, 1, "cut off", " ".join(map(str, literals)))
         # At most k robots.
         if self.at_most is not None:
             literals = tuple(-k for k in range(1, points + 1))
@@ -95,6 +116,11 @@ class Team:
             # Reach: one of the options holds.
             rows.append(Row(tuple(helpers), 1, "reach", target.origin))
         return definitions, rows
+
+
+def stretch_literals(stretch: Stretch) -> tuple[int, ...]:
+    """Literals of the clause: some point of the stretch carries a robot."""
+    return tuple(range(stretch.first, stretch.last + 1))
 
 
 def not_consecutive(u: int, w: int) -> tuple[int, ...]:

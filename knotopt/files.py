@@ -33,6 +33,7 @@ def write_atomically(path: Path, content: str | bytes) -> None:
     OutputError
         The file cannot be written there; an existing one is left as it was.
     """
+    check_file(path)
     temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex}.tmp")
     with _writing(path):
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -41,6 +42,19 @@ def write_atomically(path: Path, content: str | bytes) -> None:
             temporary.replace(path)
         finally:
             temporary.unlink(missing_ok=True)
+
+
+def check_file(path: Path) -> None:
+    """Whether a path can be a file's, before what takes long is computed.
+
+    Raises
+    ------
+    OutputError
+        It names no file, or a folder that is there.
+    """
+    with _writing(path):
+        if not path.name or path.is_dir():
+            raise OutputError(f"cannot write {path}: that is a folder")
 
 
 def write_folder(
@@ -169,6 +183,7 @@ def resumable_lines(
     OutputError
         The file cannot be written there, or the partial one is damaged or of another run.
     """
+    check_file(path)
     partial = path.with_name(f"{path.name}.partial")
     try:
         with _writing(path):

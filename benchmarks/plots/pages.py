@@ -7,16 +7,29 @@ from collections.abc import Callable
 from matplotlib.figure import Figure
 
 from benchmarks import headlines, results
-from benchmarks.plots import formulations, lcf, paths, physics, topology, versions
+from benchmarks.plots import (
+    diagrams,
+    formulations,
+    grids,
+    heuristics,
+    lcf,
+    paths,
+    physics,
+    topology,
+    versions,
+)
 from knotopt.files import write_atomically
 from knotopt.plot.figures import save_figure
 
 PAGES: dict[str, Callable[[], tuple[list[str], dict[str, Figure]]]] = {
     "summary.md": lcf.write_parts,
+    "grids.md": grids.write_parts,
     "formulations.md": formulations.write_parts,
+    "heuristics.md": heuristics.write_parts,
     "paths.md": paths.write_parts,
     "physics.md": physics.write_parts,
     "topology.md": topology.write_parts,
+    "diagrams.md": diagrams.write_parts,
     "versions.md": versions.write_parts,
 }
 """File of a page to what gives its parts and its figures by file name."""

@@ -2,14 +2,15 @@
 
 Columns that begin with `opening_` are of formulation `opening` with threading by turning points,
 with `over_under_` of the same with strands that change between over and under, with `span_` of
-formulation `span` (empty unless asked for). "Open" is by `opening` in the mode named.
+formulation `span` without loops, with `safe_` of `span` with loops (both empty unless asked for),
+with `loops_` of `loops` alone. "Open" is by `opening` in the mode named.
 """
 
 from __future__ import annotations
 
 from knotopt.atlas.schema import File
 from knotopt.document.columns import Column
-from knotopt.tables.methods import LAYERED, LCF, PROGRAMS, USUAL_PROGRAMS, columns_of
+from knotopt.tables.methods import LAYERED, LCF, PROGRAMS, TRIED_PROGRAMS, columns_of
 
 NUMBER = Column("number", int, "the knot's place in the list, from 1")
 KNOT = Column("knot", str, "name; of a grid from a file, the file's name")
@@ -20,7 +21,7 @@ ROBOTS = Column("robots", int, "supports and the two lifting robots")
 CUT_KEYS = (NUMBER, KNOT, CUT)
 """What says which knot and cut a row is of."""
 
-_USUAL = " or ".join(method.key for method in USUAL_PROGRAMS)
+_USUAL = " or ".join(method.key for method in TRIED_PROGRAMS)
 _SOLVER_KEYS = (
     *CUT_KEYS,
     Column("formulation", str, f"whose program: {_USUAL}, in its usual mode of threading"),
@@ -122,7 +123,7 @@ FILES: dict[str, tuple[Column, ...]] = {
     File.FLIGHTS: (
         *_FLIGHT_KEYS,
         ROBOTS,
-        *columns_of(USUAL_PROGRAMS, "open"),
+        *columns_of(TRIED_PROGRAMS, "open"),
         *FLOWN,
     ),
     File.FLIGHT_TIMES: (

@@ -16,7 +16,7 @@ from knotopt.flight.planner import plan_flight
 from knotopt.sim.trials import Flight, fly_trial
 from knotopt.supports.lcf import LcfResult
 from knotopt.supports.selection import GivenSupports
-from knotopt.tables.methods import LCF, USUAL_PROGRAMS, SmallestSet, Supports
+from knotopt.tables.methods import LCF, TRIED_PROGRAMS, SmallestSet, Supports
 
 logger = logging.getLogger(__name__)
 
@@ -51,7 +51,7 @@ def fly_sets(
         keys = {**knot.keys(plain.cable.cut), "supports": name}
         chosen = GivenSupports(plain.cable, supports)
         cells = {**keys, "robots": chosen.robots, **_cells(flown[supports])}
-        for method in USUAL_PROGRAMS:
+        for method in TRIED_PROGRAMS:
             solved = programs.get(method)
             cells |= method.cells(open=solved.allows(chosen) if solved else None)
         rows.append(cells)

@@ -37,7 +37,7 @@ from knotopt.tables.methods import (
     LCF,
     OPENING,
     PROGRAMS,
-    USUAL_PROGRAMS,
+    TRIED_PROGRAMS,
 )
 
 _PACKAGES = ("numpy", "ortools")
@@ -179,7 +179,7 @@ def _measure_cut(
         layered = lcf(cable, layered=True)
     solved = {method: solve(plain, settings, method) for method in PROGRAMS}
     usual = {
-        method: program for method in USUAL_PROGRAMS if (program := solved[method]) is not None
+        method: program for method in TRIED_PROGRAMS if (program := solved[method]) is not None
     }
     keys = knot.keys(cable.cut)
     more: dict[str, list[Row]] = {}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 
+from formulations.canonical import at_once
 from formulations.instance import Instance
 from formulations.solution import Limits, Solution
 from knotopt.atlas.schema import Settings
@@ -64,12 +65,13 @@ def solve(plain: LcfResult, settings: Settings, method: SmallestSet) -> Solved |
     began = time.perf_counter()
     asked = method.requirements(settings.r)
     try:
-        instance = compile_program(plain, asked).instance(float(asked.openness**2))
+        program = compile_program(plain, asked)
+        instance = program.instance(float(asked.openness**2))
     except RequirementError:
         if not method.setting:
             raise
         return None
-    solution = find_backend(SOLVER).solve(instance, Limits(seed=settings.seed))
+    solution = at_once(program) or find_backend(SOLVER).solve(instance, Limits(seed=settings.seed))
     if solution.interrupted:
         raise KeyboardInterrupt
     return Solved(instance, solution, time.perf_counter() - began)

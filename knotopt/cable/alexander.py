@@ -12,7 +12,7 @@ binary digits (Kronecker substitution); no rounding and no interpolation take pa
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import chain
 
 from knotopt.cable.cable import Cable
@@ -71,7 +71,7 @@ def alexander_from_gauss(
         _add(rows[crossing], outgoing, -1)
         strand = after
     minor = [{column: v for column, v in row.items() if column} for row in rows[1:]]
-    return _normalised(_digits(_determinant(minor), bits))
+    return _normalised(kronecker_digits(_determinant(minor), bits))
 
 
 def determinant(polynomial: Sequence[int]) -> int:
@@ -85,21 +85,22 @@ def determinant(polynomial: Sequence[int]) -> int:
     return abs(sum(-c if k % 2 else c for k, c in enumerate(polynomial)))
 
 
-def format_polynomial(polynomial: Sequence[int]) -> str:
-    """The polynomial in t as text.
+def format_polynomial(polynomial: Sequence[int] | Mapping[int, int]) -> str:
+    """The polynomial in t as text: from coefficients, constant term first, or by their powers.
 
     Examples
     --------
-    >>> format_polynomial((1, -3, 1))
-    '1 - 3t + t^2'
+    >>> format_polynomial((1, -3, 1)), format_polynomial({-1: 2, 0: 1, 1: -1})
+    ('1 - 3t + t^2', '2t^-1 + 1 - t')
     """
     terms = []
-    for power, coefficient in enumerate(polynomial):
+    by_power = polynomial if isinstance(polynomial, Mapping) else dict(enumerate(polynomial))
+    for power, coefficient in by_power.items():
         if coefficient == 0:
             continue
         size = "" if abs(coefficient) == 1 and power else str(abs(coefficient))
         terms.append("- " if coefficient < 0 else "+ ")
-        terms[-1] += size + ("", "t")[power > 0] + (f"^{power}" if power > 1 else "")
+        terms[-1] += size + ("", "t")[power != 0] + (f"^{power}" if power not in (0, 1) else "")
     text = " ".join(terms)
     return text[2:] if text.startswith("+") else text.replace("- ", "-", 1)
 
@@ -156,7 +157,7 @@ def _bareiss(matrix: list[list[int]]) -> int:
     return matrix[0][0] if matrix else 1
 
 
-def _digits(value: int, bits: int) -> list[int]:
+def kronecker_digits(value: int, bits: int) -> list[int]:
     """Digits of a signed number in base 2 ** bits, each in [-2 ** (bits-1), 2 ** (bits-1))."""
     digits = []
     while value:

@@ -19,6 +19,7 @@ from knotopt.arrays import BoolArray, IntArray
 from knotopt.cable.cut import Cut, crossing_free_cuts
 from knotopt.diagram.grid import GridDiagram, Mark
 from knotopt.errors import CutError
+from knotopt.showing import ShownShort, plural
 
 
 @dataclass(frozen=True)
@@ -80,8 +81,8 @@ class Crossings:
         return (self[index] for index in range(len(self)))
 
 
-@dataclass(frozen=True)
-class Cable:
+@dataclass(frozen=True, repr=False)
+class Cable(ShownShort):
     """The cable p_1 ... p_2N of a grid diagram, opened at a crossing-free cut.
 
     Parameters
@@ -124,6 +125,12 @@ class Cable:
                     f"{count} crossing{'s' * (count != 1)}, so the cable would not hold the knot; "
                     f"crossing-free cuts of this grid: {free}"
                 )
+
+    @property
+    def in_words(self) -> str:
+        """Grid size, cut, crossings."""
+        crossings = plural(len(self.crossings), "crossing")
+        return f"grid of size {self.diagram.size}, cut {self.cut}, {crossings}"
 
     @cached_property
     def path(self) -> tuple[Mark, ...]:

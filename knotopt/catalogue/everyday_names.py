@@ -20,14 +20,17 @@ class EverydayName:
         The knot's name in KnotInfo; m3_1 is the mirror image of 3_1, `#` a connected sum.
     names : tuple of str
         Without the word "knot", unless the name is nothing without it.
+    either_hand : bool
+        Whether the name is that of the mirror image as well.
     note : str
-        What the name leaves open, such as which of two mirror images it means.
+        What else there is to say; mostly nothing.
     source : str
         Who calls it that.
     """
 
     knot: str
     names: tuple[str, ...]
+    either_hand: bool
     note: str
     source: str
 
@@ -42,7 +45,7 @@ def everyday_names() -> Mapping[str, EverydayName]:
     '6_1'
     """
     entries = [
-        EverydayName(entry["knot"], tuple(entry["names"]), entry["note"], entry["source"])
+        EverydayName(names=tuple(entry.pop("names")), **entry)
         for entry in shipped_json("everyday_names.json")
     ]
     return {plain(name): entry for entry in entries for name in entry.names}

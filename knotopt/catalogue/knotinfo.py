@@ -15,7 +15,7 @@ from functools import cache
 
 import platformdirs
 
-from knotopt.catalogue.knots import PrimeKnot
+from knotopt.catalogue.knots import KnotTable, PrimeKnot
 from knotopt.diagram.grid import Mark
 from knotopt.errors import OutputError, require_extra
 from knotopt.files import write_atomically
@@ -24,6 +24,18 @@ _PACKAGE = "database_knotinfo"
 _CACHE_FORMAT = 2
 SHIPPED_CROSSINGS = 10
 """Knots up to this crossing number ship with knotopt itself."""
+LARGEST_CROSSINGS = 13
+"""Crossing number at which KnotInfo's table ends."""
+LARGEST_KNOTS = {
+    "11a": 367,
+    "11n": 185,
+    "11": 552,  # in Conway's list
+    "12a": 1288,
+    "12n": 888,
+    "13a": 4878,
+    "13n": 5110,
+}
+"""How many knots of more crossings KnotInfo has: names end at these numbers."""
 
 
 def is_installed() -> bool:
@@ -32,7 +44,7 @@ def is_installed() -> bool:
 
 
 @cache
-def knotinfo_knots() -> dict[str, PrimeKnot]:
+def knotinfo_knots() -> KnotTable:
     """All 12,965 prime knots of KnotInfo that have a grid, by name, in its order.
 
     Raises
@@ -51,7 +63,7 @@ def knotinfo_knots() -> dict[str, PrimeKnot]:
             write_atomically(path, to_json_lines(knots))
         except OutputError as error:
             warnings.warn(f"KnotInfo's table is not cached: {error}", stacklevel=2)
-    return {knot.name: knot for knot in knots}
+    return KnotTable((knot.name, knot) for knot in knots)
 
 
 def to_json_lines(knots: list[PrimeKnot]) -> str:

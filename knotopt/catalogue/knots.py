@@ -7,12 +7,16 @@ that columns over rows gives KnotInfo's chirality.
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cache
 from importlib.resources import files
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from knotopt.diagram.grid import GridDiagram, Mark
+from knotopt.frames import data_frame
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 @dataclass(frozen=True)
@@ -75,8 +79,26 @@ class PrimeKnot:
         return cls(**facts, marks=tuple((column, row) for column, row in entry["grid"]))
 
 
+class KnotTable(dict[str, PrimeKnot]):
+    """Knots by name."""
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """A row a knot, a column a fact, as a data frame of pandas.
+
+        Raises
+        ------
+        MissingExtraError
+            pandas is not installed.
+        """
+        columns = [field.name for field in fields(PrimeKnot)]
+        return data_frame(map(vars, self.values()), columns)
+
+    def __repr__(self) -> str:
+        return f"<KnotTable: {len(self)} knots>"
+
+
 @cache
-def shipped_knots() -> dict[str, PrimeKnot]:
+def shipped_knots() -> KnotTable:
     """The 249 prime knots up to 10 crossings by name, in KnotInfo's order.
 
     Examples
@@ -85,7 +107,8 @@ def shipped_knots() -> dict[str, PrimeKnot]:
     >>> len(knots), knots["8_19"].arc_index, knots["4_1"].alexander
     (249, 7, (1, -3, 1))
     """
-    return {entry["name"]: PrimeKnot.from_json(entry) for entry in shipped_json("prime_knots.json")}
+    entries = shipped_json("prime_knots.json")
+    return KnotTable((entry["name"], PrimeKnot.from_json(entry)) for entry in entries)
 
 
 @cache

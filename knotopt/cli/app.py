@@ -17,6 +17,7 @@ from knotopt.errors import KnotoptError
 COMMANDS = {
     "knots": ("knots", "List the prime knots in the catalogue."),
     "show": ("show", "Show a knot: cable, crossings, codes and invariants."),
+    "identify": ("identify", "Name the knot of any diagram, by invariants."),
     "lcf": ("lcf", "Select supports by the Loop Consistency Filter."),
     "solve": ("solve", "Find the provably smallest set of supports."),
     "path": ("path", "Find the path of the cable, and check it."),

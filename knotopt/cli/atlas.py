@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,10 +10,12 @@ import typer
 
 from formulations.backends import BACKENDS
 from knotopt.atlas.schema import Settings
+from knotopt.cli.completion import knot_names, list_of
 from knotopt.cli.options import CatalogueOption, OpennessOption, given, refuse, unless_given
 from knotopt.cli.printing import print_facts, print_written
 from knotopt.cli.progress import progress_bar
 from knotopt.cli.reading import read
+from knotopt.cli.sizes import check_size
 from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
@@ -25,7 +28,11 @@ def atlas(
     run_dir: Annotated[Path, typer.Argument(metavar="RUN_DIR", help="Folder of the results.")],
     knots: Annotated[
         list[str] | None,
-        typer.Argument(metavar="KNOT", help="Knots; by default those of --catalogue."),
+        typer.Argument(
+            metavar="KNOT",
+            autocompletion=knot_names,
+            help="Knots; by default those of --catalogue.",
+        ),
     ] = None,
     catalogue: CatalogueOption = False,
     knotinfo: Annotated[
@@ -46,6 +53,7 @@ def atlas(
         str | None,
         typer.Option(
             metavar="NAME,NAME...",
+            autocompletion=list_of(BACKENDS),
             help=f"Solve the programs by each of these as well: {', '.join(BACKENDS)}.",
         ),
     ] = None,
@@ -76,7 +84,8 @@ def atlas(
         ),
     ] = Settings.check,
     jobs: Annotated[
-        int | None, typer.Option(min=1, metavar="N", help="Processes; by default one a core.")
+        int | None,
+        typer.Option(min=1, max=1024, metavar="N", help="Processes; by default one a core."),
     ] = None,
     scheduler: Annotated[
         str | None,
@@ -92,7 +101,6 @@ def atlas(
     """
     from knotopt.atlas.run import run_atlas
 
-    listed = _list(knots, grids, catalogue=catalogue, knotinfo=knotinfo)
     if solver_limit is not None and solvers is None:
         refuse("--solver-limit", "goes with --solvers")
     settings = Settings(
@@ -106,6 +114,9 @@ def atlas(
         **given(solver_limit=solver_limit),
     )
     engine = _engine(jobs, scheduler)
+    listed = _list(knots, grids, catalogue=catalogue, knotinfo=knotinfo)
+    for row in listed:
+        check_size(row.grid_size, "atlas", **{"--span": span})
     done = 0
     try:
         with progress_bar("knots", len(listed)) as show:
@@ -152,6 +163,8 @@ def _engine(jobs: int | None, scheduler: str | None) -> Engine:
     from knotopt.atlas.engine import Cluster, Local
 
     if scheduler is not None:
+        if not re.fullmatch(r"[\w.:/@\[\]-]+", scheduler):
+            refuse("--scheduler", f"is an address such as tcp://host:8786, not {scheduler!r}")
         if jobs is not None:
             refuse("--jobs", "a cluster has the workers it has: give --jobs or --scheduler")
         return Cluster(scheduler)

@@ -11,6 +11,8 @@ import typer
 from knotopt.cli import options
 from knotopt.cli.printing import print_json, print_tables, print_written
 from knotopt.cli.progress import track
+from knotopt.cli.sizes import check_size
+from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
     from knotopt.document.columns import Row
@@ -42,16 +44,19 @@ def compare(
     from knotopt.files import resumable_lines
     from knotopt.tables import comparison
 
-    found = options.read_knots(knots, catalogue=catalogue)
     write = None if out is None else writer_for(out)
     limits = options.solver_limits(time_limit)
+    openness = Requirements(openness=r).openness
+    found = options.read_knots(knots, catalogue=catalogue)
+    for named in found:
+        check_size(named.diagram.size, "compare")
 
     def compare_one(named: NamedDiagram) -> Row:
         return comparison.compare(
             named.name,
             named.diagram,
             source=named.source,
-            openness=r,
+            openness=openness,
             cuts=None if cut == "best" else [Cut.parse(cut, named.diagram.size)],
             solver=solver,
             limits=limits,
@@ -61,9 +66,11 @@ def compare(
         rows = [compare_one(named) for named in track(found, "knots", len(found))]
     else:
         header = options.run_header("compare", [cut, r, solver, time_limit], found)
-        with resumable_lines(
-            out, header, lambda lines: write(comparison.tabulated(list(map(json.loads, lines))))
-        ) as lines:
+
+        def text(lines: list[str]) -> str:
+            return write(comparison.comparison_table(list(map(json.loads, lines))))
+
+        with resumable_lines(out, header, text) as lines:
             rows = list(map(json.loads, lines.done))
             for named in track(found[len(rows) :], "knots", len(found) - len(rows)):
                 rows.append(compare_one(named))
@@ -71,5 +78,5 @@ def compare(
     if as_json:
         print_json(rows)
         return
-    print_tables(comparison.tabulated(rows).document)
+    print_tables(comparison.comparison_table(rows).document)
     print_written(out)

@@ -13,11 +13,14 @@ from knotopt.errors import install_line
 EXTRAS = {
     "viz": "matplotlib",
     "knotinfo": "database_knotinfo",
+    "snappy": "snappy",
     "scip": "pyscipopt",
     "sat": "python-sat",
     "sim": "mujoco",
     "atlas": "pyarrow",
     "cluster": "distributed",
+    "pandas": "pandas",
+    "fast": "numba",
 }
 PACKAGES = (
     "knotopt",

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 
 from knotopt.cable.cable import Cable
-from knotopt.supports.support_set import SupportSet, format_supports
+from knotopt.supports.support_set import SupportSet, format_supports, place
 
 # A corner by where its two strands go: (east rather than west, north rather than south).
 _CORNERS = {(True, True): "└", (True, False): "┌", (False, True): "┘", (False, False): "┐"}
@@ -21,7 +21,13 @@ def print_supports(title: str, chosen: SupportSet) -> None:
         f"\n{title}, cut {chosen.cable.cut}: {chosen.robots} robots instead of {chosen.baseline} "
         f"({chosen.reduction_percent} % fewer)"
     )
-    print(f"supports: {format_supports(chosen.placed_supports) or 'none'}")
+    print(f"supports: {supports_in_words(chosen.cable, chosen.supports)}")
+
+
+def supports_in_words(cable: Cable, supports: Iterable[int]) -> str:
+    """The supports, or that there are none, and why if that is plain."""
+    none = "none" if cable.crossings else "none: nothing to hold open"
+    return format_supports(place(cable, supports)) or none
 
 
 def draw_text(cable: Cable, supports: Collection[int] = ()) -> str:

@@ -10,10 +10,13 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from knotopt.cli import options
+from knotopt.cli.completion import among
 from knotopt.cli.fly_printing import show_mission
+from knotopt.cli.formulations import WithOption, with_loops
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import status_line, track
 from knotopt.cli.reading import read
+from knotopt.cli.sizes import check_size
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.request import FLOWN, SCHEDULES, FlightRequest
 from knotopt.mission.disturbed import DisturbedFlights
@@ -37,8 +40,10 @@ def fly(
             "Of the smallest set: span (the taut cable itself, which is what is flown) or opening "
             "(polygons through the grid's crossings).",
             metavar="NAME",
+            autocompletion=among(("span", "opening")),
         ),
     ] = None,
+    with_: WithOption = None,
     r: Annotated[float | None, options.openness_option(FLOWN.openness)] = None,
     sim: Annotated[
         bool,
@@ -57,7 +62,11 @@ def fly(
         ),
     ] = None,
     schedule: Annotated[
-        str, typer.Option(help="optimised (the fastest), or fixed: at one pace, as in the paper.")
+        str,
+        typer.Option(
+            autocompletion=among(SCHEDULES),
+            help="optimised (the fastest), or fixed: at one pace, as in the paper.",
+        ),
     ] = FlightRequest.schedule,
     step: Annotated[float, typer.Option(help="Metres per grid step.")] = ROOM.step,
     altitude: Annotated[float, typer.Option(help="Of hovering robots [m].")] = ROOM.altitude,
@@ -129,10 +138,13 @@ def fly(
     from knotopt.supports.selection import equally_small
 
     options.check_choice("--schedule", schedule, SCHEDULES)
-    if supports != "milp" and (r is not None or formulation is not None):
-        options.refuse("--formulation" if r is None else "--r", "goes with --supports milp")
+    if supports != "milp":
+        for option in options.given(r=r, formulation=formulation, **{"with": with_}):
+            options.refuse(f"--{option}", "goes with --supports milp")
     requirements = Requirements(
-        formulation or FLOWN.formulation, FLOWN.openness if r is None else r
+        FLOWN.formulation if formulation is None else formulation,
+        FLOWN.openness if r is None else r,
+        with_loops=with_loops(with_),
     )
     world = World(step, altitude, floor, ceiling, ROOM.drone_height, ROOM.downwash)
     limits = FlightLimits(
@@ -141,12 +153,15 @@ def fly(
     disturbed = options.given(noise=noise, wind=wind, gust=gust, seed=seed, runs=runs)
     for name in () if sim else disturbed | options.given(tighten=tighten):
         options.refuse(f"--{name}", "goes with --sim")
+    if tighten is not None and not 0 < tighten < math.inf:
+        options.refuse("--tighten", f"is a distance in metres, not {tighten:g}")
     if wind is not None:
         disturbed["wind"] = _wind(wind)
     disturbances = DisturbedFlights(**disturbed).disturbances()
     _check_surroundings(out, sim=sim)
 
     named = read(knot)
+    check_size(named.diagram.size, "fly", **{"--supports milp": supports == "milp"})
     sets = equally_small(named.diagram, supports, cut, requirements)
     request = FlightRequest(named.name, Path(supports).name, world, limits, schedule)
     mission = _mission(sets, request, disturbances, tighten, sim=sim)

@@ -16,12 +16,11 @@ HEADS = ("planned", "result", "what happened")
 
 def show_mission(mission: Mission, title: str) -> None:
     """Print a plan's measures, its crossings, and what came of it in physics."""
-    from knotopt.supports.support_set import format_supports, place
+    from knotopt.cli.drawing import supports_in_words
 
     plan = mission.plan
-    supports = format_supports(place(plan.cable, plan.supports))
     print(f"{title}, cut {plan.cable.cut}: {plan.robots} robots ({plan.chosen_by})")
-    print(f"supports: {supports or 'none'}\n")
+    print(f"supports: {supports_in_words(plan.cable, plan.supports)}\n")
     print_facts(mission.measures())
     if not mission.flights:
         print("\nthe leader's route over cable laid straight in plan:")

@@ -6,14 +6,18 @@ from typing import Annotated, Any
 
 import typer
 
+from knotopt.cli.completion import among
 from knotopt.cli.options import check_choice, refuse
+from knotopt.cli.reading import read
+from knotopt.cli.sizes import check_size
 from knotopt.reading.writing import LISTED_FORMS, WRITTEN_FORMS, write_knot
 
-FormOption = Annotated[
+WrittenOption = Annotated[
     str | None,
     typer.Option(
         "--format",
         metavar="NAME",
+        autocompletion=among(WRITTEN_FORMS),
         help=f"Print only the closed knot, as one of {LISTED_FORMS}.",
     ),
 ]
@@ -21,10 +25,10 @@ FormOption = Annotated[
 
 def print_form(knot: str, form: str, others: dict[str, Any]) -> None:
     """Print a knot in a form; what else is asked for is refused."""
-    from knotopt.reading.knot import read_knot
-
     check_choice("--format", form, WRITTEN_FORMS)
     for option, value in others.items():
         if value:
             refuse(option, "does not go with --format, which prints the knot alone")
-    print(write_knot(read_knot(knot).diagram, form), end="")
+    named = read(knot)
+    check_size(named.diagram.size, "show --format")
+    print(write_knot(named.diagram, form), end="")

@@ -19,10 +19,10 @@ def knots(
         int | None, typer.Option(metavar="N", help="Only knots of this crossing number.", min=0)
     ] = None,
     arc_index: Annotated[
-        int | None, typer.Option(metavar="N", help="Only knots of this arc index.")
+        int | None, typer.Option(metavar="N", help="Only knots of this arc index.", min=2)
     ] = None,
     determinant: Annotated[
-        int | None, typer.Option(metavar="N", help="Only knots of this determinant.")
+        int | None, typer.Option(metavar="N", help="Only knots of this determinant.", min=1)
     ] = None,
     alternating: Annotated[
         bool | None,
@@ -38,12 +38,13 @@ def knots(
     Example: knotopt knots --crossings 8 --non-alternating
     """
     from knotopt.cable.alexander import format_polynomial
-    from knotopt.catalogue.knotinfo import knotinfo_knots
+    from knotopt.catalogue.knotinfo import SHIPPED_CROSSINGS, knotinfo_knots
     from knotopt.catalogue.knots import shipped_knots
 
+    beyond = crossings is not None and crossings > SHIPPED_CROSSINGS
     chosen = [
         knot
-        for knot in (knotinfo_knots() if all_of_knotinfo else shipped_knots()).values()
+        for knot in (knotinfo_knots() if all_of_knotinfo or beyond else shipped_knots()).values()
         if fnmatch.fnmatchcase(knot.name, pattern)
         and crossings in (None, knot.crossing_number)
         and arc_index in (None, knot.arc_index)
@@ -70,5 +71,7 @@ def knots(
         ),
     )
     print(f"{len(chosen)} knot" + ("" if len(chosen) == 1 else "s"))
-    if not chosen and not all_of_knotinfo:
+    if not chosen and beyond:
+        print("KnotInfo's table ends at 13 crossings.")
+    elif not chosen and not all_of_knotinfo:
         print("The catalogue ends at 10 crossings; --all looks among KnotInfo's 12,965 knots.")

@@ -6,6 +6,7 @@ An option's default is that of the dataclass that it fills, read from there.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Collection, Iterable
 from enum import StrEnum
 from pathlib import Path
@@ -15,6 +16,7 @@ import typer
 
 from formulations.backends import BACKENDS
 from formulations.solution import BackendError, Limits
+from knotopt.cli.completion import CUTS, among, knot_names
 from knotopt.errors import OutputError, SolverError
 from knotopt.supports.requirements import Requirements
 
@@ -57,15 +59,20 @@ def openness_option(default: Any = Requirements.openness) -> Any:
 def cut_option(words: str) -> Any:
     """The option --cut: what else it can be, before the cuts' own names."""
     help = f"{words}, or one: L+ L- R+ R- B+ B- T+ T-, col3+, row5-."
-    return typer.Option(metavar="CUT", help=help)
+    also = [name for name in ("best", "all") if re.search(rf"\b{name} \(|^{name}\b", words)]
+    return typer.Option(metavar="CUT", help=help, autocompletion=among((*also, *CUTS)))
 
 
 def _check_picture(path: Path | None) -> Path | None:
-    """A picture's name of a wrong format is refused before anything is computed."""
+    """A picture's name of a wrong format or folder is refused before anything is computed."""
     if path is not None:
+        from knotopt.files import check_file
         from knotopt.plot.figures import check_format
 
         check_format(path)
+        check_file(path)
+        if not path.parent.is_dir():
+            raise OutputError(f"cannot write {path}: there is no folder {path.parent}")
     return path
 
 
@@ -73,6 +80,7 @@ KnotArgument = Annotated[
     str,
     typer.Argument(
         metavar="KNOT",
+        autocompletion=knot_names,
         help="A name (8_19, 'T(2,7)', a row of Table I: 3, '7 Var1'), a code (PD, DT, Gauss, "
         "braid word), a grid, or a file with one; - for standard input.",
     ),
@@ -81,6 +89,7 @@ KnotsArgument = Annotated[
     list[str] | None,
     typer.Argument(
         metavar="KNOT",
+        autocompletion=knot_names,
         help="Names (8_19, 'T(2,7)', rows of Table I: 3, '7 Var1'), codes (PD, DT, Gauss, braid "
         "words), grids, or files with one; - for standard input.",
     ),
@@ -102,6 +111,7 @@ SupportsOption = Annotated[
     str,
     typer.Option(
         metavar="NAME|FILE",
+        autocompletion=among(("milp", "lcf", "all")),
         help="milp (the provably smallest set), lcf, all (turning points), or a .json file "
         "such as solve --json and lcf --json print.",
     ),
@@ -110,7 +120,12 @@ SupportsCutOption = Annotated[str, cut_option("best (for those supports; a file'
 FormatOption = Annotated[PictureFormat, typer.Option("--format", help="Of the figures.")]
 OpennessOption = Annotated[float | None, openness_option()]
 SolverOption = Annotated[
-    str, typer.Option(metavar="NAME", help=f"{', '.join(BACKENDS)} (22 points at most).")
+    str,
+    typer.Option(
+        metavar="NAME",
+        autocompletion=among(BACKENDS),
+        help=f"{', '.join(BACKENDS)} (22 points at most).",
+    ),
 ]
 TimeLimitOption = Annotated[
     float | None, typer.Option(help="Stop after so many seconds.", metavar="S")

@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from knotopt.cli import options
-from knotopt.cli.formulations import FormulationOption
+from knotopt.cli.completion import among
+from knotopt.cli.formulations import FormulationOption, WithOption, with_loops
 from knotopt.cli.printing import print_facts, print_json, print_note, print_table, print_written
 from knotopt.cli.reading import read
+from knotopt.cli.sizes import check_size
 from knotopt.path.requirements import PathRequirements
 from knotopt.path.world import World
 from knotopt.supports.requirements import Requirements
@@ -29,11 +31,14 @@ def path(
     method: Annotated[
         str,
         typer.Option(
-            metavar="NAME", help="nlp (the program), relaxation (the paper's springs), or both."
+            metavar="NAME",
+            autocompletion=among(METHODS),
+            help="nlp (the program), relaxation (the paper's springs), or both.",
         ),
     ] = "nlp",
     cut: options.SupportsCutOption = "best",
     formulation: FormulationOption = Requirements.formulation,
+    with_: WithOption = None,
     r: options.OpennessOption = None,
     clearance: Annotated[
         float, typer.Option(help="Smallest distance of strands in plan [grid steps].")
@@ -99,8 +104,11 @@ def path(
     options.check_suffix(out, "curves are", (".csv",))
     if out is not None and method == "both":
         options.refuse("--out", "writes one curve: give --method nlp or relaxation")
-    if supports != "milp" and (r is not None or formulation != Requirements.formulation):
-        options.refuse("--formulation" if r is None else "--r", "goes with --supports milp")
+    if supports != "milp":
+        given = {"--r": r, "--with": with_, "--formulation": formulation}
+        for option, value in given.items():
+            if value not in (None, Requirements.formulation):
+                options.refuse(option, "goes with --supports milp")
     height = {"drone_height": drone_height, "downwash": downwash}
     room = options.given(altitude=altitude, floor=floor, ceiling=ceiling, **height)
     world = _world(step, room, gap)
@@ -109,13 +117,16 @@ def path(
     )
     if world is not None:
         asked = world.requirements(asked)
+    of_the_set = Requirements(formulation, r, with_loops=with_loops(with_))
+    limits = options.solver_limits(time_limit)
     named = read(knot)
-    chosen = choose_supports(named.diagram, supports, cut, Requirements(formulation, r))
+    check_size(named.diagram.size, "path", **{f"--formulation {formulation}": supports == "milp"})
+    chosen = choose_supports(named.diagram, supports, cut, of_the_set)
     results: list[PathResult] = []
     if method != "nlp":
         results.append(relaxed_path(chosen.cable, chosen.supports, asked))
     if method != "relaxation":
-        results.append(optimise_path(chosen.cable, chosen.supports, asked, seconds=time_limit))
+        results.append(optimise_path(chosen.cable, chosen.supports, asked, seconds=limits.seconds))
     title = f"{named.name}, cut {chosen.cable.cut}: {chosen.robots} robots ({supports})"
     written = _write(results, title, world, plot, out)
     if as_json:

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from knotopt.document.model import Document
 
-UNBROKEN = 1_000_000  # characters
 LEAST = 9  # of a column of words that are longer [characters]
 BETWEEN = 3  # characters between two columns
 
@@ -32,7 +31,10 @@ def print_table(columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
     cells = [[words[v] if isinstance(v, bool) else str(v) for v in row] for row in rows]
     by_column = [[column, *(row[k] for row in cells)] for k, column in enumerate(columns)]
     room = _terminal_width()
-    if room is None or _least_width(by_column, room) <= room:
+    if room is None:
+        print(_unbroken(by_column))
+        return
+    if _least_width(by_column, room) <= room:
         _print_grid(by_column, room)
         return
     across = [[*line] for line in zip(*by_column, strict=True)]
@@ -71,9 +73,38 @@ def _least_width(by_column: Sequence[Sequence[str]], room: int) -> int:
     return sum(_least(column, room) + BETWEEN for column in by_column) - BETWEEN + 2
 
 
-def _print_grid(
-    by_column: Sequence[Sequence[str]], room: int | None, *, headed: bool = True
-) -> None:
+def _widths(by_column: Sequence[Sequence[str]], room: int) -> list[int]:
+    """Of each column: as wide as its cells, or what is left is shared among those that break."""
+    widths = [_least(column, room) for column in by_column]
+    left = room - _least_width(by_column, room)
+    missing = [
+        max(map(len, column)) - width for column, width in zip(by_column, widths, strict=True)
+    ]
+    narrow = sorted(range(len(widths)), key=missing.__getitem__)
+    for done, place in enumerate(narrow):
+        more = max(0, min(missing[place], left // (len(narrow) - done)))
+        widths[place] += more
+        left -= more
+    return widths
+
+
+def _unbroken(by_column: Sequence[Sequence[str]]) -> str:
+    """Columns, each with its head, a row a line: what `rich` makes of them, but at once."""
+    from rich.cells import cell_len
+
+    aligned = []
+    for head, *cells in by_column:
+        width = max(map(cell_len, [head, *cells]))
+        right = all(map(_is_number, cells))
+        filled = [" " * (width - cell_len(cell)) for cell in [head, *cells]]
+        texts = zip([head, *cells], filled, strict=True)
+        aligned.append([fill + cell if right else cell + fill for cell, fill in texts])
+    head, *rows = (f" {(' ' * BETWEEN).join(line)} " for line in zip(*aligned, strict=True))
+    width = cell_len(head)
+    return "\n".join([" " * width, head, f" {'─' * (width - 2)} ", *rows, " " * width])
+
+
+def _print_grid(by_column: Sequence[Sequence[str]], room: int, *, headed: bool = True) -> None:
     """Print columns, each with its head, as wide as there is room."""
     from rich import box
     from rich.console import Console
@@ -82,17 +113,17 @@ def _print_grid(
 
     # Text, not markup: columns and cells hold [brackets].
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_header=headed)
-    for column in by_column:
+    for column, width in zip(by_column, _widths(by_column, room), strict=True):
         head, *cells = column
         table.add_column(
             Text(head),
             justify="right" if all(map(_is_number, cells)) else "left",
-            min_width=None if room is None else _least(column, room),
+            width=width,  # that `rich` finds by itself may be less than a word's
             overflow="fold",
         )
     for row in zip(*(column[headed:] for column in by_column), strict=True):
         table.add_row(*map(Text, row))
-    Console(width=room or UNBROKEN).print(table)
+    Console(width=room).print(table)
 
 
 def print_tables(document: Document) -> None:

@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from knotopt.cli import options
-from knotopt.cli.formulations import FormulationOption, ThreadingOption
+from knotopt.cli.completion import among
+from knotopt.cli.formulations import FormulationOption, ThreadingOption, WithOption, with_loops
 from knotopt.cli.printing import print_json, print_note, print_table, print_written
 from knotopt.cli.progress import track
+from knotopt.cli.sizes import check_size
 from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
@@ -24,6 +26,7 @@ def prove(
     catalogue: options.CatalogueOption = False,
     formulation: FormulationOption = Requirements.formulation,
     threading: ThreadingOption = None,
+    with_: WithOption = None,
     r: options.OpennessOption = None,
     cut: Annotated[
         str, options.cut_option("best: the bound holds for every crossing-free cut")
@@ -32,8 +35,9 @@ def prove(
         str | None,
         typer.Option(
             metavar="NAME",
-            help="refutation (by CaDiCaL; the default) or count (the checker examines every "
-            "smaller set).",
+            autocompletion=among(("refutation", "count", "disjoint loops")),
+            help="refutation (by CaDiCaL; the default), count (the checker examines every smaller "
+            "set) or, of formulation loops and its default, 'disjoint loops'.",
         ),
     ] = None,
     time_limit: options.TimeLimitOption = None,
@@ -51,13 +55,15 @@ def prove(
     from knotopt.supports.certificate import prove as prove_knot
     from knotopt.supports.registry import find_formulation
 
-    found = options.read_knots(knots, catalogue=catalogue)
-    asked = Requirements(formulation, r, threading)
+    asked = Requirements(formulation, r, threading, with_loops=with_loops(with_))
     proofs = find_formulation(formulation).proofs
     if method not in (None, *proofs):
         options.refuse("--method", f"expected {' or '.join(proofs)}")
     limits = options.solver_limits(time_limit)
-    settings = [formulation, asked.threading, str(asked.openness), cut, method]
+    found = options.read_knots(knots, catalogue=catalogue)
+    for named in found:
+        check_size(named.diagram.size, "prove", **{f"--formulation {formulation}": True})
+    settings = [asked.words, asked.threading, str(asked.openness), cut, method]
     header = options.run_header("prove", settings, found)
     proven: list[str] = []
     try:
@@ -80,11 +86,20 @@ def prove(
                 file=sys.stderr,
             )
         raise
-    said = ("knot", "formulation", "openness", "robots", "cut")
     claims = map(json.loads, proven)
     print_table(
         ("knot", "formulation", "r", "robots", "cut", "smallest over"),
-        ((*(claim[key] for key in said), _cuts(len(claim["bounds"]))) for claim in claims),
+        (
+            (
+                claim["knot"],
+                asked.words,
+                claim["openness"] if find_formulation(formulation).has_openness else "-",
+                claim["robots"],
+                claim["cut"],
+                _cuts(len(claim["bounds"])),
+            )
+            for claim in claims
+        ),
     )
     print_written(out)
 
@@ -147,6 +162,7 @@ def _accepted(verdict: CheckedCertificate) -> dict[str, Any]:
         "knot": verdict.knot,
         "grid": "catalogue" if _is_shipped(verdict) else "other",
         "formulation": verdict.formulation,
+        "with": "loops" if verdict.with_loops else "none",
         "threading": verdict.threading,
         "openness": float(verdict.openness),
         "robots_after": verdict.robots,
@@ -162,13 +178,18 @@ def _cuts(count: int) -> str:
 
 def _print_verdicts(accepted: list[dict[str, Any]], rejected: list[dict[str, Any]]) -> None:
     """Print what was accepted as a table, and why others were rejected."""
+    from knotopt.supports.registry import find_formulation
+
     if accepted:
         print_table(
             ("named", "grid", "formulation", "r", "robots", "cut", "smallest over"),
             (
                 (
-                    *(each[key] for key in ("knot", "grid", "formulation")),
-                    f"{each['openness']:g}",
+                    *(each[key] for key in ("knot", "grid")),
+                    each["formulation"] + " with loops" * (each["with"] == "loops"),
+                    f"{each['openness']:g}"
+                    if find_formulation(each["formulation"]).has_openness
+                    else "-",
                     *(each[key] for key in ("robots_after", "cut")),
                     "all " * each["every_cut"] + _cuts(each["cuts"]),
                 )

@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from knotopt.cli.completion import among, form_names
+
 if TYPE_CHECKING:
     from pathlib import Path
 
@@ -28,6 +30,7 @@ OverOption = Annotated[
     typer.Option(
         "--over",
         metavar="LINES",
+        autocompletion=among(("columns", "rows")),
         help="Of a grid's lines, columns or rows pass over; by default as the form has it.",
     ),
 ]
@@ -39,6 +42,7 @@ FormOption = Annotated[
     typer.Option(
         "--as",
         metavar="FORM",
+        autocompletion=form_names,
         help="Read KNOT in this form only, such as grid_notation (KnotInfo's), pd or braid.",
     ),
 ]

@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from knotopt.cli.formats import FormOption, print_form
+from knotopt.cli.completion import CUTS, among
+from knotopt.cli.formats import WrittenOption, print_form
 from knotopt.cli.options import JsonOption, KnotArgument, PlotOption
 from knotopt.cli.printing import print_facts, print_json, print_written
 from knotopt.cli.reading import read, reading_in_words
+from knotopt.cli.sizes import check_size
 
 if TYPE_CHECKING:
     from knotopt.cable.cable import Cable
@@ -25,10 +27,11 @@ def show(
         str,
         typer.Option(
             metavar="CUT",
+            autocompletion=among(CUTS),
             help="Where the knot is opened: L+ L- R+ R- B+ B- T+ T-, or col3+, row5-.",
         ),
     ] = "L+",
-    form: FormOption = None,
+    written: WrittenOption = None,
     plot: PlotOption = None,
     as_json: JsonOption = False,
 ) -> None:
@@ -36,15 +39,18 @@ def show(
 
     Example: knotopt show 8_19 --plot 8_19.png
     """
-    if form is not None:
-        print_form(knot, form, {"--plot": plot, "--json": as_json})
+    if written is not None:
+        print_form(knot, written, {"--plot": plot, "--json": as_json})
         return
     from knotopt.cable.alexander import alexander_polynomial
     from knotopt.cable.cable import Cable
     from knotopt.cli.drawing import draw_text
+    from knotopt.cli.identify import identified_in_words, identified_json
     from knotopt.diagram.simplify import simplify
+    from knotopt.identify.identify import identify
 
     named = read(knot, says=True)
+    check_size(named.diagram.size, "show", **{"--plot": plot})
     cable = Cable(named.diagram, cut)
     # Of a diagram with many crossings, the polynomial is computed on a simpler one of the knot.
     simplest = Cable(simplify(named.diagram), "L+")
@@ -54,12 +60,18 @@ def show(
         from knotopt.plot.figures import cable_figure, save_figure
 
         save_figure(cable_figure(cable, f"{named.name}, cut {cable.cut}"), plot)
+    found = None if named.prime_knot else identify(simplest.diagram)
     content = _json(named, cable, simplest, polynomial)
+    content["identified"] = None if found is None else identified_json(found)
     if as_json:
         print_json(content)
         return
     print(draw_text(cable), end="\n\n")
-    print_facts(_facts(content, len(simplest.crossings)))
+    facts = _facts(content, len(simplest.crossings))
+    if found is not None:
+        words = identified_in_words(found, up_to_mirror=named.ambiguous)
+        facts.insert([name for name, _ in facts].index("grid size"), ("identified", words))
+    print_facts(facts)
     print_written(plot)
 
 
@@ -71,6 +83,8 @@ def _json(
     from knotopt.cable.cut import crossing_free_cuts
     from knotopt.cable.notation import dt_code, gauss_code, pd_code
     from knotopt.cable.staircase import find_staircases
+    from knotopt.identify.invariants import signature_or_none
+    from knotopt.planar.from_grid import planar_diagram
 
     return {
         "knot": named.name,
@@ -97,7 +111,7 @@ def _json(
         "writhe": int(cable.crossings.sign.sum()),
         "alexander": None if polynomial is None else list(polynomial),
         "determinant": None if polynomial is None else determinant(polynomial),
-        "signature": named.prime_knot.signature if named.prime_knot else None,
+        "signature": signature_or_none(planar_diagram(simplest.diagram)),
         "gauss_code": list(gauss_code(cable)),
         "pd_code": [list(crossing) for crossing in pd_code(cable)],
         "dt_code": list(dt_code(cable)),
@@ -121,7 +135,7 @@ def _facts(content: dict[str, Any], fewest: int) -> list[tuple[str, Any]]:
     unknown = (
         f"not computed: the smallest grid found has {fewest} crossings, more than {MAX_CROSSINGS}"
     )
-    alexander, signature = content["alexander"], content["signature"]
+    alexander = content["alexander"]
     staircases = [
         f"{len(each['crossings'])} crossings {each['direction']}"
         + (" (twist)" if each["is_twist"] else "")
@@ -130,17 +144,17 @@ def _facts(content: dict[str, Any], fewest: int) -> list[tuple[str, Any]]:
     form, notes = content["form"], tuple(content["notes"])
     return [
         ("knot", f"{content['knot']} ({content['source']})"),
-        *([] if form == "name" else [("read as", reading_in_words(form, notes))]),
+        *([("read as", reading_in_words(form, notes))] if notes or form != "name" else []),
         ("grid size", f"{content['grid_size']} (smallest found: {content['smallest_grid_found']})"),
         ("cut", f"{content['cut']} of {' '.join(content['crossing_free_cuts'])}"),
         ("turning points", content["turning_points"]),
         ("cable length", f"{content['length']} grid steps"),
         ("crossings", f"{content['crossings']}, writhe {content['writhe']}"),
         ("Alexander", unknown if alexander is None else format_polynomial(tuple(alexander))),
-        ("signature", "known for knots of the catalogue only" if signature is None else signature),
+        ("signature", "not computed" if content["signature"] is None else content["signature"]),
         ("determinant", unknown if alexander is None else content["determinant"]),
-        ("Gauss code", " ".join(map(str, content["gauss_code"]))),
-        ("PD code", " ".join(str(tuple(crossing)) for crossing in content["pd_code"])),
-        ("DT code", " ".join(map(str, content["dt_code"]))),
+        ("Gauss code", " ".join(map(str, content["gauss_code"])) or "none"),
+        ("PD code", " ".join(str(tuple(crossing)) for crossing in content["pd_code"]) or "none"),
+        ("DT code", " ".join(map(str, content["dt_code"])) or "none"),
         ("staircases", "; ".join(staircases) or "none of 3 crossings or more"),
     ]

@@ -10,10 +10,19 @@ import typer
 from formulations.backends import DEFAULT
 from formulations.solution import Limits
 from knotopt.cli import options
-from knotopt.cli.formulations import FormulationOption, ThreadingOption
+from knotopt.cli.formulations import FormulationOption, ThreadingOption, WithOption, with_loops
 from knotopt.cli.printing import print_json, print_written
-from knotopt.cli.progress import logged_bar, track
+from knotopt.cli.progress import logged_bar, status_line, track
 from knotopt.cli.reading import read
+from knotopt.cli.sizes import check_size
+from knotopt.cli.solve_diagrams import (
+    BudgetOption,
+    DiagramsOption,
+    check_out,
+    front_json,
+    search_diagrams,
+    show_front,
+)
 from knotopt.cli.solve_flown import (
     FlightOptions,
     MaxCutOption,
@@ -33,9 +42,11 @@ from knotopt.cli.solve_printing import (
 from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
+    from formulations.solution import Enumeration
     from knotopt.diagram.grid import GridDiagram
+    from knotopt.supports.diagram_search import DiagramSearch
     from knotopt.supports.minimal import MinimalSupports
-    from knotopt.supports.search import CutSearch, DiagramSearch
+    from knotopt.supports.search import CutSearch
 
 MOST_SETS = 1000  # that --all lists, unless another number is given
 
@@ -44,6 +55,7 @@ def solve(
     knot: options.KnotArgument,
     formulation: FormulationOption = Requirements.formulation,
     threading: ThreadingOption = None,
+    with_: WithOption = None,
     r: options.OpennessOption = None,
     cut: Annotated[
         str, options.cut_option("best (of the crossing-free cuts), all (each by itself)")
@@ -55,13 +67,8 @@ def solve(
     count: Annotated[
         int | None, options.unless_given(MOST_SETS, "With --all: how many at most.", min=1)
     ] = None,
-    diagrams: Annotated[
-        int,
-        typer.Option(
-            help="Also search so many diagrams of the knot, by translations and commutations.",
-            min=1,
-        ),
-    ] = 1,
+    diagrams: DiagramsOption = False,
+    budget: BudgetOption = None,
     separation: Annotated[
         float | None, typer.Option(help="Smallest distance of two robots [grid steps].")
     ] = None,
@@ -89,6 +96,14 @@ def solve(
             help="At most so many robots; the smallest opening is maximised instead.", metavar="K"
         ),
     ] = None,
+    laid: Annotated[
+        bool,
+        typer.Option(
+            "--laid",
+            help="The cable laid in straight spans must be the knot, by invariants; sets that fail "
+            "are cut off.",
+        ),
+    ] = False,
     verify_physics: Annotated[
         bool,
         typer.Option(
@@ -105,7 +120,8 @@ def solve(
         Path | None,
         typer.Option(
             help="With --verify-physics: write the answer as JSON; a run that is interrupted, or "
-            "out of budget, goes on where it stopped.",
+            "out of budget, goes on where it stopped. With --diagrams: keep the search, to go on "
+            "with it.",
             metavar="FILE",
         ),
     ] = None,
@@ -127,15 +143,13 @@ def solve(
     Example: knotopt solve '7 Var2' --formulation span --plot supports.png
     """
     from formulations.export import FORMATS
-    from knotopt.cable.cut import crossing_free_cuts
     from knotopt.supports.minimal import all_minimal
-    from knotopt.supports.search import supports_by_cut
 
-    named = read(knot)
     asked = Requirements(
         formulation,
         r,
         threading,
+        with_loops=with_loops(with_),
         separation=separation,
         payload=payload,
         reach=reach,
@@ -148,52 +162,81 @@ def solve(
         options.refuse("--count", "goes with --all")
     about_one_cut = {"--plot": plot, "--export": export, "--all": every}
     _check_options(cut, diagrams, about_one_cut, numbers=bool(forbid or force))
+    about_others = {"--all": every, "--diagrams": diagrams, "--max-robots": max_robots}
+    if laid:
+        _refuse_any(about_others | {"--cut all": cut == "all"}, "does not go with --laid")
     options.check_suffix(export, "programs are", FORMATS)
-    flights = FlightOptions(noise, trials, physics_budget, max_cut, out)
+    check_out(budget, out, diagrams=diagrams, flown=verify_physics)
+    flights = FlightOptions(noise, trials, physics_budget, max_cut, None if diagrams else out)
+    (flights.tests if verify_physics else flights.check_unused)()
+    named = read(knot)
+    check_size(named.diagram.size, "solve", **{f"--formulation {formulation}": True})
     if verify_physics:
         if cut == "all":
             options.refuse("--cut", "with --verify-physics, give --cut best or a cut's name")
-        others = {"--all": every, "--diagrams": diagrams > 1, "--max-robots": max_robots}
-        _refuse_any(others, "does not go with --verify-physics")
-        flown = fly_sets(named, asked, cut, flights, solver=solver, limits=limits)
+        _refuse_any(about_others, "does not go with --verify-physics")
+        flown = fly_sets(named, asked, cut, flights, laid=laid, solver=solver, limits=limits)
         tied = flown.status == "tied"
         written = _write(named.name, flown.result, plot if tied else None, export)
         show_flown(named, flown, written, as_json=as_json)
         raise typer.Exit(0 if tied else 1)
-    flights.check_unused()
     if cut == "all":
-        cuts = crossing_free_cuts(named.diagram)
-        found = supports_by_cut(named.diagram, asked, cuts=cuts, solver=solver, limits=limits)
-        results = track(found, "cuts", len(cuts), lambda result: result.cable.cut)
-        show_cuts(named.name, list(results), as_json=as_json)
+        results = _each_cut(named.diagram, asked, solver, limits)
+        show_cuts(named.name, results, as_json=as_json)
         return
-    search, diagram_search = _search(named.diagram, asked, cut, diagrams, solver, limits)
+    solving: dict[str, Any] = {"solver": solver, "limits": limits}
+    found = search_diagrams(named, asked, budget, out, **solving) if diagrams else None
+    search = (
+        found.best if found else (_laid if laid else _search)(named.diagram, asked, cut, **solving)
+    )
     result, sets = search.best, None
     if every and result.found:
         sets = all_minimal(result, count=count or MOST_SETS, solver=solver, limits=limits)
     written = _write(named.name, result, plot, export)
     if as_json:
-        content = search_json(named.name, search, diagram_search)
-        if sets is not None:
-            content["minimal_sets"] = [list(each) for each in sets.sets]
-            content["minimal_sets_complete"] = sets.complete
-        print_json(content)
+        print_json(_answer_json(named.name, search, found, sets))
     else:
-        show_search(f"{named.name} ({named.source})", search, diagram_search)
-        if sets is not None:
-            show_sets(sets, count or MOST_SETS)
+        _show(f"{named.name} ({named.source})", search, found, sets, count)
         print_written(*written)
     if not result.found:
         raise typer.Exit(1)
 
 
+def _answer_json(
+    name: str, search: CutSearch, found: DiagramSearch | None, sets: Enumeration | None
+) -> dict[str, Any]:
+    """What `--json` says."""
+    content = search_json(name, search)
+    if found is not None:
+        content |= front_json(found)
+    if sets is not None:
+        content["minimal_sets"] = [list(each) for each in sets.sets]
+        content["minimal_sets_complete"] = sets.complete
+    return content
+
+
+def _show(
+    title: str,
+    search: CutSearch,
+    found: DiagramSearch | None,
+    sets: Enumeration | None,
+    count: int | None,
+) -> None:
+    """Print the front over diagrams, the best set, and all smallest ones, as far as asked for."""
+    if found is not None:
+        show_front(title, found)
+    show_search(title, search, found)
+    if sets is not None:
+        show_sets(sets, count or MOST_SETS)
+
+
 def _check_options(
-    cut: str, diagrams: int, about_one_cut: dict[str, Any], *, numbers: bool
+    cut: str, diagrams: bool, about_one_cut: dict[str, Any], *, numbers: bool
 ) -> None:
     """Options that exclude each other are refused."""
     if cut == "all":
         _refuse_any(about_one_cut, "is about one cut: give --cut best or a cut's name")
-    if diagrams > 1 and cut != "best":
+    if diagrams and cut != "best":
         options.refuse("--diagrams", "goes with --cut best")
     if cut in ("best", "all") and numbers:
         why = "turning points are numbered along one cable: give --cut L+ or another"
@@ -208,29 +251,50 @@ def _refuse_any(given: dict[str, Any], why: str) -> None:
 
 
 def _search(
-    diagram: GridDiagram, asked: Requirements, cut: str, diagrams: int, solver: str, limits: Limits
-) -> tuple[CutSearch, DiagramSearch | None]:
-    """The best cut, perhaps of several diagrams; progress is shown and logged."""
+    diagram: GridDiagram, asked: Requirements, cut: str, *, solver: str, limits: Limits
+) -> CutSearch:
+    """The best cut; progress is shown and logged."""
     from knotopt.cable.cut import Cut, crossing_free_cuts
-    from knotopt.supports.search import best_diagram, best_supports
+    from knotopt.supports.search import best_supports
 
-    solving: dict[str, Any] = {"solver": solver, "limits": limits}
-    if diagrams > 1:
-        with logged_bar("diagrams", diagrams) as show:
-            found = best_diagram(
-                diagram, asked, budget=diagrams, seed=limits.seed, progress=show, **solving
-            )
-        return found.best, found
     cuts = (Cut.parse(cut, diagram.size),) if cut != "best" else crossing_free_cuts(diagram)
     with logged_bar("cuts", len(cuts)) as show:
-        search = best_supports(
+        return best_supports(
             diagram,
             asked,
             cuts=cuts,
+            solver=solver,
+            limits=limits,
             progress=lambda done: show(done, cuts[done - 1]),
-            **solving,
         )
-    return search, None
+
+
+def _each_cut(
+    diagram: GridDiagram, asked: Requirements, solver: str, limits: Limits
+) -> list[MinimalSupports]:
+    """Every cut by itself; progress is shown."""
+    from knotopt.cable.cut import crossing_free_cuts
+    from knotopt.supports.search import supports_by_cut
+
+    cuts = crossing_free_cuts(diagram)
+    found = supports_by_cut(diagram, asked, cuts=cuts, solver=solver, limits=limits)
+    return list(track(found, "cuts", len(cuts), lambda result: result.cable.cut))
+
+
+def _laid(
+    diagram: GridDiagram, asked: Requirements, cut: str, *, solver: str, limits: Limits
+) -> CutSearch:
+    """The best cut, of sets that lay the knot."""
+    from knotopt.cable.cut import Cut
+    from knotopt.laid.smallest import LaidCuts
+    from knotopt.supports.by_size import sets_in_order
+
+    cuts = None if cut == "best" else [Cut.parse(cut, diagram.size)]
+    lacks = LaidCuts()
+    with status_line("solving"):
+        return next(
+            sets_in_order(diagram, asked, cuts=cuts, lacks=lacks, solver=solver, limits=limits)
+        )
 
 
 def _write(
@@ -239,15 +303,12 @@ def _write(
     """Write the picture (if there is a set) and the program; return what was written."""
     written = []
     if plot is not None and result.found:
-        from knotopt.plot.figures import save_figure, supports_figure
-        from knotopt.supports.registry import find_formulation
+        from knotopt.plot.figures import save_figure, smallest_figure
 
         asked = result.requirements
         title = f"{name}, cut {result.cable.cut}: {result.robots} robots"
-        title += f" ({asked.formulation}{asked_in_words(asked)})"
-        taut = find_formulation(asked.formulation).is_taut
-        figure = supports_figure(result.lcf.regions, result.supports, title, taut=taut)
-        save_figure(figure, plot)
+        title += f" ({asked.words}{asked_in_words(asked)})"
+        save_figure(smallest_figure(result, title), plot)
         written.append(plot)
     if export is not None:
         from formulations.export import FORMATS

@@ -84,11 +84,13 @@ def fly_sets(
     cut: str,
     options: FlightOptions,
     *,
+    laid: bool,
     solver: str,
     limits: Limits,
 ) -> FlownResult:
     """Fly sets until one ties the knot; write the answer to the file asked for."""
     from knotopt.cable.cut import Cut
+    from knotopt.laid.smallest import LaidCuts
     from knotopt.rehearsal.cut_off import solve_flown
     from knotopt.sim.simulators import MUJOCO
 
@@ -98,12 +100,28 @@ def fly_sets(
 
     cuts = None if cut == "best" else [Cut.parse(cut, named.diagram.size)]
     knot = named.name, named.diagram
-    search = partial(solve_flown, *knot, asked, tests, cuts=cuts, solver=solver, limits=limits)
+    search = partial(
+        solve_flown,
+        *knot,
+        asked,
+        tests,
+        cuts=cuts,
+        lacks=LaidCuts() if laid else None,
+        solver=solver,
+        limits=limits,
+    )
     with status_line("solving", lasting="set "):
         if options.out is None:
             return search()
         versions = [importlib.metadata.version(each) for each in ("knotopt", MUJOCO.package)]
-        settings = ["verify-physics", repr(asked), cut, tests.noise, tests.trials, versions]
+        settings = [
+            "verify-physics" + laid * " laid",
+            repr(asked),
+            cut,
+            tests.noise,
+            tests.trials,
+            versions,
+        ]
         header = run_header("solve", settings, [named])
         return _search_into(options.out, header, named, search)
 

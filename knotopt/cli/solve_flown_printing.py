@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 def flown_json(named: NamedDiagram, flown: FlownResult) -> dict[str, Any]:
     """What `--json` says."""
     tied = flown.tied.flights if flown.tied else ()
-    content = search_json(named.name, flown.search, None)
+    content = search_json(named.name, flown.search)
     for key in ("proven", "proven_over_cuts"):  # smaller sets that were cut off are open as well
         content[key] = content[key] and not flown.smaller_cut_off
     return content | {
@@ -90,17 +90,17 @@ _ENDED = {
 def claim(flown: FlownResult) -> str:
     """What is proven, what was seen in flights, and what is not known."""
     best, count, smaller = flown.result, len(flown.cut_off), flown.smaller_cut_off
-    rows = f"the rows of `{best.requirements.formulation}`"
+    rows = f"the rows of `{best.requirements.words}`"
+    laid = flown.search.cut_off is not None
+    meets = f"meets {rows} and lays the knot" if laid else f"meets {rows}"
     many = len(flown.search.outcomes)
     where = f"over the {many} cuts searched" if many > 1 else "on this cut"
     sentences = []
     if flown.is_proven:
         but = f", but for {smaller} cut off" if smaller else ""
-        sentences.append(
-            f"Proven: no set of fewer than {best.robots} robots meets {rows} {where}{but}."
-        )
+        sentences.append(f"Proven: no set of fewer than {best.robots} robots {meets} {where}{but}.")
     elif flown.status == "no set":
-        sentences.append(f"Proven: no set but the {count} cut off meets {rows} {where}.")
+        sentences.append(f"Proven: no set but the {count} cut off {meets} {where}.")
     else:
         sentences.append(f"The solver stopped early: smaller sets may meet {rows}.")
     if flown.status == "tied":
@@ -111,8 +111,9 @@ def claim(flown: FlownResult) -> str:
             "otherwise, cannot tie the knot."
         )
     sentences.append(
-        f"Sets that do not meet {rows} were not flown. A knot counts as tied by its Alexander "
-        "polynomial, which does not tell mirror images apart."
+        f"Sets that do not meet {rows}{', or lay another knot,' if laid else ''} were not flown. "
+        "A knot counts as tied by its Alexander polynomial, which does not tell mirror images "
+        "apart."
     )
     return " ".join(sentences)
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from knotopt.cli.completion import CUTS, among, knot_names
 from knotopt.cli.options import JsonOption, PlotOption, check_choice, refuse
 from knotopt.cli.printing import print_facts, print_json, print_table, print_written
 from knotopt.cli.reading import asked, reading_in_words
@@ -15,12 +16,15 @@ if TYPE_CHECKING:
     from knotopt.reading.goal import Goal
     from knotopt.topology.plan import Plan, PlanGraph
 
+MOST_PLANS = 1_000_000  # that can be listed: a gigabyte
+
 
 def topology(
     goal: Annotated[
         str,
         typer.Argument(
             metavar="KNOT",
+            autocompletion=knot_names,
             help="As for the other commands; or the state of a rope: its matrix, or its signed "
             "Gauss code 'U1+ O2+ U3+ O1+ U2+ O3+'; or a file with one.",
         ),
@@ -29,6 +33,7 @@ def topology(
         str | None,
         typer.Option(
             metavar="CUT",
+            autocompletion=among(CUTS),
             help="Where a knot's diagram is opened: L+ (by default) L- R+ R- B+ B- T+ T-, or "
             "col3+, row5-.",
         ),
@@ -37,6 +42,7 @@ def topology(
         str,
         typer.Option(
             metavar="NAME",
+            autocompletion=among(("one", "mirror", "orbit")),
             help="one (the state itself), mirror (its mirror image too) or orbit (the reverses "
             "as well).",
         ),
@@ -48,6 +54,7 @@ def topology(
         str,
         typer.Option(
             metavar="NAME",
+            autocompletion=among(("paper", "public", "any")),
             help="Which R2 there are: paper (those its parameters tell apart), public (as in the "
             "authors' code) or any.",
         ),
@@ -56,7 +63,10 @@ def topology(
         bool, typer.Option("--shortest", help="Only plans with the fewest actions.")
     ] = False,
     plans: Annotated[
-        int, typer.Option(help="How many plans are listed and drawn.", min=0, metavar="K")
+        int,
+        typer.Option(
+            help="How many plans are listed and drawn.", min=0, max=MOST_PLANS, metavar="K"
+        ),
     ] = 10,
     plot: PlotOption = None,
     as_json: JsonOption = False,

@@ -18,12 +18,13 @@ from numpy.typing import NDArray
 
 from knotopt.arrays import BoolArray
 from knotopt.errors import GridError
+from knotopt.showing import Shown
 
 Mark = tuple[int, int]  # [column, row], 1-based
 
 
 @dataclass(frozen=True)
-class GridDiagram:
+class GridDiagram(Shown):
     """An oriented grid diagram of one knot.
 
     Every column and every row holds one -1 and one +1. The knot runs along each column from its

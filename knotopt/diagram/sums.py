@@ -20,7 +20,7 @@ from functools import reduce
 
 from knotopt.diagram.grid import GridDiagram
 from knotopt.diagram.simplify import SMALLEST_KNOTTED, simplify
-from knotopt.diagram.walk import Lists, columns_of, diagram_of, lists_of, walk
+from knotopt.diagram.walk import Lists, columns_of, lists_of, walk
 from knotopt.errors import GridError
 
 
@@ -76,7 +76,7 @@ def _between(columns: list[tuple[int, int]], first: int, last: int) -> list[tupl
     return [columns[(first + step) % size] for step in range(1, (last - first) % size)]
 
 
-def split_sum(grid: GridDiagram, *, patience: int = 200, seed: int = 0) -> tuple[GridDiagram, ...]:
+def split_sum(grid: GridDiagram, *, patience: int = 300, seed: int = 0) -> tuple[GridDiagram, ...]:
     """Simplified diagrams of the knot's summands, as far as a walk finds them.
 
     Parameters
@@ -98,16 +98,17 @@ def split_sum(grid: GridDiagram, *, patience: int = 200, seed: int = 0) -> tuple
     >>> [summand.size for summand in split_sum(granny)]
     [5, 5]
     """
-    simple = simplify(grid, seed=seed)
-    generator = random.Random(seed)
+    return _split(simplify(grid, seed=seed), patience, random.Random(seed))
+
+
+def _split(simple: GridDiagram, patience: int, generator: random.Random) -> tuple[GridDiagram, ...]:
     lists = lists_of(simple)
     for _ in range(patience * simple.size):
         for found in _splittings(lists):
-            first, second = (simplify(each, seed=seed) for each in found)
+            first, second = (simplify(each) for each in found)
             if min(first.size, second.size) > 2:
-                return *split_sum(first, seed=seed), *split_sum(second, seed=seed)
-        if walk(lists, simple.size, generator):
-            return split_sum(diagram_of(lists), patience=patience, seed=seed)
+                return *_split(first, patience, generator), *_split(second, patience, generator)
+        walk(lists, simple.size, generator, past_contractions=True)
     return (simple,)
 
 

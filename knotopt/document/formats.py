@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from knotopt.document.columns import Row
 from knotopt.document.csv import csv_text
@@ -12,6 +13,10 @@ from knotopt.document.latex import latex_tables
 from knotopt.document.markdown import markdown
 from knotopt.document.model import Document
 from knotopt.errors import OutputError
+from knotopt.frames import data_frame
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 @dataclass(frozen=True)
@@ -21,6 +26,16 @@ class Tabulation:
     document: Document
     names: tuple[str, ...]
     rows: tuple[Row, ...]
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """The rows as a data frame of pandas.
+
+        Raises
+        ------
+        MissingExtraError
+            pandas is not installed.
+        """
+        return data_frame(self.rows, self.names)
 
 
 WRITERS: dict[str, Callable[[Tabulation], str]] = {

@@ -64,6 +64,27 @@ def span_words(cable: Cable, supports: tuple[int, ...]) -> tuple[Word, ...]:
     """
     times = robot_times(cable, supports)
     places = cable.cells[times].astype(float)
+    found = []
+    for span, word in enumerate(letters_of_grid(cable, supports), 1):
+        leaving = _swept(cable, times, places, span - 1, span)
+        entering = _swept(cable, times, places, span, span)
+        inverse = [replace(letter, sense=-letter.sense) for letter in reversed(leaving)]
+        found.append(reduced([*inverse, *word, *entering]))
+    return tuple(found)
+
+
+def letters_of_grid(cable: Cable, supports: tuple[int, ...]) -> tuple[Word, ...]:
+    """The crossings of every span with older ones, as they come along it on the grid.
+
+    A letter's rank is the time of the crossing's first visit.
+
+    Parameters
+    ----------
+    cable : Cable
+    supports : tuple of int
+        Turning points with a support robot (1-based).
+    """
+    times = robot_times(cable, supports)
     words: list[list[Letter]] = [[] for _ in times[1:]]
     for crossing in sorted(cable.crossings, key=lambda each: each.second):
         older, span = np.searchsorted(times, (crossing.first, crossing.second), side="left")
@@ -71,13 +92,7 @@ def span_words(cable: Cable, supports: tuple[int, ...]) -> tuple[Word, ...]:
             over = not crossing.first_over
             sense = -crossing.sign if over else crossing.sign
             words[span - 1].append(Letter(int(older), over, sense, float(crossing.first)))
-    found = []
-    for span, word in enumerate(words, 1):
-        leaving = _swept(cable, times, places, span - 1, span)
-        entering = _swept(cable, times, places, span, span)
-        inverse = [replace(letter, sense=-letter.sense) for letter in reversed(leaving)]
-        found.append(reduced([*inverse, *word, *entering]))
-    return tuple(found)
+    return tuple(map(tuple, words))
 
 
 def _swept(

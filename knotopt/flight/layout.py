@@ -73,13 +73,29 @@ def reduced(letters: Iterable[AnyCancelling]) -> tuple[AnyCancelling, ...]:
     >>> reduced([there, under, there, back]) == (there, under)
     True
     """
-    left: list[AnyCancelling] = []
-    for letter in letters:
-        if left and left[-1].cancels(letter):
-            left.pop()
+    letters = tuple(letters)
+    undone = {place for pair in undone_pairs(letters) for place in pair}
+    return tuple(letter for place, letter in enumerate(letters) if place not in undone)
+
+
+def undone_pairs(letters: Sequence[Cancelling]) -> tuple[tuple[int, int], ...]:
+    """Places, from 0, of the letters that are taken out, with those that undo them.
+
+    A letter undoes the last one before it that is left.
+
+    Examples
+    --------
+    >>> there, back = Letter(1, True, 1, None), Letter(1, True, -1, None)
+    >>> undone_pairs([there, there, back, there])
+    ((1, 2),)
+    """
+    pairs, left = [], list[int]()
+    for place, letter in enumerate(letters):
+        if left and letters[left[-1]].cancels(letter):
+            pairs.append((left.pop(), place))
         else:
-            left.append(letter)
-    return tuple(left)
+            left.append(place)
+    return tuple(pairs)
 
 
 @dataclass(frozen=True, eq=False)

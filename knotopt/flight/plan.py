@@ -13,6 +13,7 @@ from knotopt.cable.cable import Cable
 from knotopt.flight.limits import FlightLimits
 from knotopt.flight.request import FlightRequest
 from knotopt.path.world import World
+from knotopt.showing import ShownShort, plural
 
 
 @dataclass(frozen=True)
@@ -149,8 +150,8 @@ class MotionPlan:
         return float(self.times[1] - self.times[0])
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class FlightPlan(MotionPlan):
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class FlightPlan(ShownShort, MotionPlan):
     """A motion that ties the knot of a grid diagram with supports on its cable.
 
     Attributes
@@ -168,6 +169,12 @@ class FlightPlan(MotionPlan):
     cable: Cable
     supports: tuple[int, ...]
     chosen_by: str
+
+    @property
+    def in_words(self) -> str:
+        """Knot, robots, schedule, duration."""
+        flown = f"{self.schedule} schedule, {self.duration:.1f} s"
+        return f"{self.name}, cut {self.cable.cut}, {plural(self.robots, 'robot')}, {flown}"
 
 
 def with_supports(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from knotopt.arrays import FloatArray, IntArray
 from knotopt.errors import RequirementError
-from knotopt.ranges import check_not_negative
+from knotopt.ranges import LARGEST_NOISE, LARGEST_WIND, check_at_most, check_not_negative
 
 
 @dataclass(frozen=True)
@@ -45,9 +45,12 @@ class Disturbance:
 
     def __post_init__(self) -> None:
         check_not_negative(self, ("noise", "gust"), "a number from 0 up")
+        check_at_most(self, {"noise": (LARGEST_NOISE, " m"), "gust": (LARGEST_WIND, " m/s")})
         wind: object = self.wind
         if not isinstance(wind, tuple) or len(wind) != 2 or not all(map(_is_finite, wind)):
             raise RequirementError(f"wind is two numbers (x, y), not {wind!r}")
+        if max(map(abs, self.wind)) > LARGEST_WIND:
+            raise RequirementError(f"wind is at most {LARGEST_WIND:g} m/s, not {wind!r}")
         if not isinstance(self.seed, int) or self.seed < 0:
             raise RequirementError(f"seed is a whole number from 0 up, not {self.seed!r}")
 

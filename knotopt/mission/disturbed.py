@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from knotopt.ranges import MOST_FLIGHTS, check_at_most
+
 if TYPE_CHECKING:  # the command line takes its defaults from here: no arrays for `--help`
     from knotopt.flight.record import Disturbance
 
@@ -42,5 +44,6 @@ class DisturbedFlights:
         """
         from knotopt.flight.record import Disturbance
 
+        check_at_most(self, {"runs": (MOST_FLIGHTS, "")})
         first = Disturbance(self.noise, self.wind, self.gust, self.seed)
         return [replace(first, seed=self.seed + k) for k in range(self.runs)]

@@ -13,6 +13,7 @@ at crossings, is longer than so many clearances. Strands that are `clearance` ap
 leave a crossing at an angle of at least 2 asin(1 / NEIGHBOURHOOD) = 29 degrees."""
 
 LARGEST = 10.0  # of clearance, opening and gap that are considered [grid steps]
+STEEPEST = 1000.0  # slope, and weight of bending [grid steps], that are considered
 
 
 @dataclass(frozen=True)
@@ -73,6 +74,9 @@ class PathRequirements:
                 raise RequirementError(
                     f"{name} {getattr(self, name):g} is more than {LARGEST:g} grid steps"
                 )
+        for name in ("slope", "bending"):
+            if getattr(self, name) > STEEPEST:
+                raise RequirementError(f"{name} is at most {STEEPEST:g}, not {getattr(self, name)}")
         if not self.floor < 0 < self.ceiling:
             raise RequirementError(
                 "robots hover at height 0, between floor and ceiling; "

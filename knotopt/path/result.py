@@ -14,6 +14,7 @@ from knotopt.path.curve import Curve, length_along
 from knotopt.path.mesh import robot_times
 from knotopt.path.requirements import PathRequirements
 from knotopt.path.taut import taut_length
+from knotopt.showing import ShownShort, plural
 from knotopt.verify.path import PathReport, check_path
 
 FINE = 0.005  # between the points of a curve that are examined [grid steps]
@@ -70,8 +71,8 @@ class Round:
     violations: tuple[NamedViolation, ...]
 
 
-@dataclass(frozen=True, eq=False)
-class PathResult:
+@dataclass(frozen=True, eq=False, repr=False)
+class PathResult(ShownShort):
     """A path of a cable with its supports, and what is known of it.
 
     Attributes
@@ -116,6 +117,13 @@ class PathResult:
     rounds: tuple[Round, ...] = field(default=())
     steps: int = 0
     blocked: str = ""
+
+    @property
+    def in_words(self) -> str:
+        """Method, status, length and robots."""
+        length = f"{self.curve.length:.2f} grid steps"
+        robots = plural(len(self.supports) + 2, "robot")
+        return f"{self.method} {self.status}, cut {self.cable.cut}, {length}, {robots}"
 
     @property
     def robots(self) -> FloatArray:

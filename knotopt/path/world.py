@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING
 
 from knotopt.errors import RequirementError
 from knotopt.path.requirements import LARGEST, PathRequirements
-from knotopt.ranges import check_not_negative
+from knotopt.ranges import check_at_most, check_not_negative
 
 if TYPE_CHECKING:
     from knotopt.path.curve import Curve
     from knotopt.path.result import PathResult
+
+LARGEST_STEP = 1000.0  # [m]
 
 
 @dataclass(frozen=True)
@@ -57,6 +59,7 @@ class World:
         check_not_negative(self, names, "a length in metres")
         if not self.step > 0:
             raise RequirementError(f"a grid step is a positive length in metres, not {self.step}")
+        check_at_most(self, {"step": (LARGEST_STEP, " m")})
         if not self.gap > 0:
             raise RequirementError("a drone and its downwash need some height; 0 m is none")
         if self.gap > LARGEST * self.step:

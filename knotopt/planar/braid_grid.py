@@ -35,11 +35,11 @@ def braid_grid(word: Sequence[int], strands: int | None = None) -> GridDiagram:
     Examples
     --------
     >>> print(braid_grid([1, 1, 1]))
-     0  0  0  1 -1
-     0  0  1 -1  0
-     0  1 -1  0  0
-     1 -1  0  0  0
-    -1  0  0  0  1
+    -1  0  0  1  0
+     0 -1  0  0  1
+     1  0 -1  0  0
+     0  1  0 -1  0
+     0  0  1  0 -1
     """
     count = len(from_braid(word, strands).crossings)  # complains of what is no braid, or no knot
     if not count:

@@ -24,10 +24,8 @@ from dataclasses import dataclass
 
 from knotopt.diagram.grid import GridDiagram
 from knotopt.diagram.sums import connected_sum
-from knotopt.planar.planar_diagram import Crossing, PlanarDiagram
+from knotopt.planar.planar_diagram import End, PlanarDiagram
 from knotopt.planar.sums import summands
-
-End = tuple[int, int]  # of an edge: crossing, and side of it
 
 UNKNOT = GridDiagram((1, 2), (2, 1))
 
@@ -82,16 +80,16 @@ class _Gathering:
     """Rays and pages about the axis, counterclockwise seen from above."""
 
     def __init__(self, planar: PlanarDiagram) -> None:
-        self.crossings = planar.crossings
         self.signs = planar.signs
-        self.other = _other_ends(planar.crossings)
-        self.neighbours = [
-            {self.other[crossing, side][0] for side in range(4)}
-            for crossing in range(len(planar.crossings))
-        ]
+        self.other = planar.other_ends
+        self.face = {  # to the left of each edge, from where it begins
+            begin: number for number, face in enumerate(planar.faces) for begin in face
+        }
+        self.left = set(range(1, len(planar.crossings)))
+        self.touched = {self.face[0, side] for side in range(4)}  # faces of crossings at the axis
         self.lowest, self.highest = 0, 1
         self.around: list[_Ray | _Page] = [self._ray((0, side), side % 2) for side in range(4)]
-        self.left = set(range(1, len(planar.crossings)))
+        self.at_axis = {(0, side) for side in range(4)}  # where the rays begin
 
     def _ray(self, start: End, height: int) -> _Ray:
         crossing, side = start
@@ -101,7 +99,11 @@ class _Gathering:
 
     def gather_next(self) -> None:
         """Pull one more crossing to the axis."""
-        place, ray = self._next_ray()
+        place, ray = next(
+            (place, ray)
+            for place, ray in enumerate(self.around)
+            if isinstance(ray, _Ray) and self._may_be_next(*self.other[ray.start])
+        )
         crossing, side = self.other[ray.start]
         right, opposite, left = ((crossing, (side + turn) % 4) for turn in (1, 2, 3))
         if right[1] % 2:  # it passes over the ray's strand
@@ -114,46 +116,44 @@ class _Gathering:
             self._ray(left, height),
         ]
         self.left.discard(crossing)
-        for start in (right, left):
-            self._close(start)
-        self._close(opposite)
+        self.touched |= {self.face[crossing, side] for side in range(4)}
+        self.at_axis.discard(ray.start)
+        self.at_axis |= {right, opposite, left}
+        for start in (right, left, opposite):  # the first two turn freely
+            if self.other[start] in self.at_axis:
+                self._close(start)
 
-    def _next_ray(self) -> tuple[int, _Ray]:
-        """The first ray to a crossing whose opposite edge does not lead back to the axis.
+    def _may_be_next(self, crossing: int, side: int) -> bool:
+        """Whether the opposite edge leads on, and the crossings left without this one are one part.
 
-        Without that crossing, those left have to be in one part.
+        Those at the axis lie in one face of what is left. A crossing that is met twice around that
+        face, between different edges, holds two parts together.
         """
-        rays = [(place, ray) for place, ray in enumerate(self.around) if isinstance(ray, _Ray)]
         if len(self.left) == 1:
-            return rays[0]
-        joined = {self.other[ray.start] for _, ray in rays}
+            return True
+        if self._leads_to_axis(crossing, side + 2):
+            return False
+        met = sum(
+            self.face[crossing, corner] in self.touched
+            and not self._leads_to_axis(crossing, corner + 1)
+            for corner in range(4)
+        )
+        return met == 1
+
+    def _leads_to_axis(self, crossing: int, side: int) -> bool:
+        return self.other[crossing, side % 4] in self.at_axis
+
+    def _place(self, start: End) -> int:
         return next(
-            (place, ray)
-            for place, ray in rays
-            for crossing, side in [self.other[ray.start]]
-            if (crossing, (side + 2) % 4) not in joined and self._in_one_part_without(crossing)
+            place
+            for place, ray in enumerate(self.around)
+            if isinstance(ray, _Ray) and ray.start == start
         )
 
-    def _in_one_part_without(self, crossing: int) -> bool:
-        left = self.left - {crossing}
-        queue = [left.pop()]
-        while queue:
-            met = self.neighbours[queue.pop()] & left
-            left -= met
-            queue += met
-        return not left
-
-    def _place(self, start: End) -> int | None:
-        for place, ray in enumerate(self.around):
-            if isinstance(ray, _Ray) and ray.start == start:
-                return place
-        return None
-
     def _close(self, start: End) -> None:
-        """Make pages of an edge, if both its ends are at the axis."""
+        """Make pages of an edge that has both its ends at the axis."""
         one, two = self._place(start), self._place(self.other[start])
-        if one is None or two is None:
-            return
+        self.at_axis -= {start, self.other[start]}
         for turned, kept in ((one, two), (two, one)):
             if self._turns(turned, kept) or self._turns(turned, kept, clockwise=True):
                 self.around[kept] = self._page(kept, self._ray_at(turned).height)
@@ -203,11 +203,3 @@ def _draw_prime(planar: PlanarDiagram) -> GridDiagram:
     return GridDiagram(
         tuple(row[page.tail] for page in pages), tuple(row[page.head] for page in pages)
     )
-
-
-def _other_ends(crossings: tuple[Crossing, ...]) -> dict[End, End]:
-    ends: dict[int, list[End]] = {}
-    for crossing, edges in enumerate(crossings):
-        for side, edge in enumerate(edges):
-            ends.setdefault(edge, []).append((crossing, side))
-    return {here: there for one, two in ends.values() for here, there in ((one, two), (two, one))}

@@ -10,7 +10,6 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import chain
 
-from knotopt.planar.faces import faces
 from knotopt.planar.planar_diagram import PlanarDiagram
 
 Form = dict[int, dict[int, Fraction]]  # the rows of a symmetric matrix, without its zeros
@@ -38,20 +37,20 @@ def signature(planar: PlanarDiagram) -> int:
 
 def _goeritz(planar: PlanarDiagram) -> tuple[Form, int]:
     """The Goeritz matrix over the faces of one colour but one, and the correction."""
-    found = faces(planar)
-    corners = {
-        white: [
-            (around[0], around[2]) if even == white else (around[1], around[3])
-            for around, even in zip(found.of_corner, found.even_is_white, strict=True)
-        ]
-        for white in (True, False)
-    }
-    white = min(corners, key=lambda each: len({*chain.from_iterable(corners[each])}))
+    face = {corner: number for number, each in enumerate(planar.faces) for corner in each}
+    # Left of the knot faces are white and black by turns, so that right of an odd edge, in corners
+    # 0 and 2 of the crossing that it comes to below, they are white.
+    firsts = [(crossing[0] + 1) % 2 for crossing in planar.crossings]
+    across = [
+        [(face[c, k ^ black], face[c, (k ^ black) + 2]) for c, k in enumerate(firsts)]
+        for black in (0, 1)
+    ]
+    fewer = min((0, 1), key=lambda black: len({*chain.from_iterable(across[black])}))
     form: Form = {}
     correction = 0
-    for (a, b), even, sign in zip(corners[white], found.even_is_white, planar.signs, strict=True):
+    for (a, b), first, sign in zip(across[fewer], firsts, planar.signs, strict=True):
         # How the strand above turns onto that below: through these faces, or through the others.
-        turn = 1 if even == white else -1
+        turn = 1 if first == fewer else -1
         if turn == sign:
             correction -= turn
         if a != b:

@@ -6,7 +6,7 @@ be told apart without colour vision and in print.
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -19,6 +19,7 @@ from matplotlib.patches import Patch, Rectangle
 
 from knotopt.arrays import FloatArray, IntArray
 from knotopt.cable.cable import Cable
+from knotopt.diagram.grid import GridDiagram, Mark
 from knotopt.path.mesh import between
 from knotopt.plot.labels import draw_labels
 from knotopt.supports.regions import Regions
@@ -30,6 +31,8 @@ SPAN_COLOUR = "#009E73"
 LIFTING_COLOUR = "#D55E00"
 LAYER_COLOURS = ("#FBEBBE", "#F5D57C", "#EBB73A", "#D0930F")
 PASSIVE_COLOUR = "#AAAAAA"
+LOOP_COLOURS = ("#CC79A7", "#56B4E9", "#F0E442", "#E69F00", "#B2ABD2")
+LOOP_WIDTHS = (12, 7)  # [points]
 GAP = 0.2  # half-width of the gap in an under-crossing strand [grid steps]
 CLOSE = 30  # points on a strand
 NUMBER_OFFSET = 8  # from a turning point to its number, along each axis [points]
@@ -37,23 +40,7 @@ NUMBER_OFFSET = 8  # from a turning point to its number, along each axis [points
 
 def draw_cable(axes: Axes, cable: Cable) -> None:
     """The cable with gaps at under-crossings and its turning points numbered along the path."""
-    size = cable.diagram.size
-    pieces = []
-    for (c0, r0), (c1, r1) in pairwise(cable.path):
-        if c0 == c1:
-            pieces.append([(c0, r0), (c1, r1)])
-            continue
-        under = sorted(x for x, y in cable.crossings.cell.tolist() if y == r0)
-        bounds = [min(c0, c1), *(x + d for x in under for d in (-GAP, GAP)), max(c0, c1)]
-        pieces += [
-            [(left, r0), (right, r0)]
-            for left, right in zip(bounds[0::2], bounds[1::2], strict=True)
-        ]
-    axes.add_collection(
-        LineCollection(pieces, colors=CABLE_COLOUR, linewidths=2, capstyle="round", zorder=3)
-    )
-    axes.set(xlim=(0.2, size + 0.8), ylim=(0.2, size + 0.8), aspect="equal")
-    grid_axes(axes, size)
+    _draw_strands(axes, cable.path, cable.diagram)
     count = len(cable.path)
     corners = cable.points.astype(float)
     draw_labels(
@@ -66,6 +53,33 @@ def draw_cable(axes: Axes, cable: Cable) -> None:
         first=_away(cable).astype(float),
         colours=["#444444"] * count,
     )
+
+
+def draw_closed(axes: Axes, diagram: GridDiagram) -> None:
+    """The closed knot of a grid diagram with gaps at under-crossings."""
+    _draw_strands(axes, (*diagram.traversal, diagram.traversal[0]), diagram)
+
+
+def _draw_strands(axes: Axes, path: Sequence[Mark], diagram: GridDiagram) -> None:
+    """Strands along a path of turning points, on axes with columns and rows."""
+    pieces = []
+    for (c0, r0), (c1, r1) in pairwise(path):
+        if c0 == c1:
+            pieces.append([(c0, r0), (c1, r1)])
+            continue
+        left, right = min(c0, c1), max(c0, c1)
+        under = np.flatnonzero(diagram.crossing_cells[:, r0 - 1]) + 1
+        within = under[(left < under) & (under < right)].tolist()
+        bounds = [left, *(x + d for x in within for d in (-GAP, GAP)), right]
+        pieces += [
+            [(start, r0), (end, r0)] for start, end in zip(bounds[0::2], bounds[1::2], strict=True)
+        ]
+    axes.add_collection(
+        LineCollection(pieces, colors=CABLE_COLOUR, linewidths=2, capstyle="round", zorder=3)
+    )
+    size = diagram.size
+    axes.set(xlim=(0.2, size + 0.8), ylim=(0.2, size + 0.8), aspect="equal")
+    grid_axes(axes, size)
 
 
 def grid_axes(axes: Axes, size: int | None = None) -> None:
@@ -120,6 +134,33 @@ def draw_spans(axes: Axes, cable: Cable, supports: Collection[int]) -> list[Line
         label="taut cable",
         zorder=3.5,
     )
+
+
+def draw_loops(axes: Axes, cable: Cable, loops: Collection[int]) -> list[Line2D]:
+    """Loops of the cable, by their crossings' indices, as broad lines below it.
+
+    Two loops that follow each other may share cable between two turning points: widths alternate,
+    so that both are seen.
+
+    Returns
+    -------
+    list of Line2D
+        Handles for a legend.
+    """
+    handles = []
+    for number, index in enumerate(loops):
+        crossing = cable.crossings[index]
+        along = cable.cells[crossing.first : crossing.second + 1]
+        handles += axes.plot(
+            *along.T,
+            color=LOOP_COLOURS[number % len(LOOP_COLOURS)],
+            linewidth=LOOP_WIDTHS[number % len(LOOP_WIDTHS)],
+            solid_joinstyle="miter",
+            solid_capstyle="butt",
+            label=f"loop c{index + 1} at [{crossing.column},{crossing.row}]",
+            zorder=1 + number / 1000,
+        )
+    return handles
 
 
 def draw_regions(axes: Axes, regions: Regions) -> list[Patch]:

@@ -13,45 +13,68 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from knotopt.cable.cable import Cable
+from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import OutputError
 from knotopt.files import write_atomically
-from knotopt.plot.cable import draw_cable, draw_regions, draw_robots, draw_spans
+from knotopt.plot.cable import (
+    draw_cable,
+    draw_closed,
+    draw_loops,
+    draw_regions,
+    draw_robots,
+    draw_spans,
+)
 from knotopt.supports.lcf import LcfResult
 from knotopt.supports.minimal import MinimalSupports
 from knotopt.supports.regions import Regions
 from knotopt.supports.registry import find_formulation
+from knotopt.supports.support_set import SupportSet
 
 PANEL = 3.4  # width of a panel [inch]: one column of a two-column paper
 FORMATS = (".png", ".pdf", ".svg")
 
 
+def diagram_figure(diagram: GridDiagram, title: str) -> Figure:
+    """One panel: the closed knot of a grid diagram."""
+    figure, (axes,) = _panels(1, diagram.size)
+    draw_closed(axes, diagram)
+    figure.suptitle(title, fontsize=9, parse_math=False)
+    return figure
+
+
 def cable_figure(cable: Cable, title: str) -> Figure:
     """One panel: the grid diagram opened at its cut, turning points numbered."""
-    figure, (axes,) = _panels(1, cable)
+    figure, (axes,) = _panels(1, cable.diagram.size)
     draw_cable(axes, cable)
     return titled(figure, title, draw_robots(axes, cable, [])[1:])
 
 
-def supports_figure(
-    regions: Regions, supports: Collection[int], title: str, *, taut: bool = False
-) -> Figure:
-    """One panel: supports, active regions shaded by layer, passive ones hatched.
+def set_figure(chosen: SupportSet, title: str) -> Figure:
+    """One panel: the cable and its robots."""
+    figure, (axes,) = _panels(1, chosen.cable.diagram.size)
+    draw_cable(axes, chosen.cable)
+    return titled(figure, title, draw_robots(axes, chosen.cable, chosen.supports))
 
-    With `taut`, also the straight spans between consecutive robots.
-    """
-    figure, (axes,) = _panels(1, regions.cable)
+
+def supports_figure(regions: Regions, supports: Collection[int], title: str) -> Figure:
+    """One panel: supports, active regions shaded by layer, passive ones hatched."""
+    figure, (axes,) = _panels(1, regions.cable.diagram.size)
     shades = draw_regions(axes, regions)
     draw_cable(axes, regions.cable)
     handles = draw_robots(axes, regions.cable, supports)
-    if taut:
-        handles += draw_spans(axes, regions.cable, supports)
     return titled(figure, title, [*handles, *shades])
+
+
+def smallest_figure(result: MinimalSupports, title: str) -> Figure:
+    """One panel: a smallest set, and what it is needed for."""
+    figure, (axes,) = _panels(1, result.cable.diagram.size)
+    return titled(figure, title, _draw_smallest(axes, result))
 
 
 def before_after_figure(result: LcfResult, title: str) -> Figure:
     """Two panels: above the baseline, a robot at every turning point, and below LCF's supports."""
     cable = result.cable
-    figure, (before, after) = _panels(2, cable)
+    figure, (before, after) = _panels(2, cable.diagram.size)
     draw_cable(before, cable)
     draw_robots(before, cable, range(2, len(cable.path)))
     before.set_title(f"before: {result.baseline} robots", fontsize=9)
@@ -79,19 +102,31 @@ def figure_bytes(figure: Figure, format: str) -> bytes:
 
 
 def minimal_figure(results: Sequence[MinimalSupports], title: str) -> Figure:
-    """One panel a result, one above the other: its smallest set and the taut cable."""
-    figure, panels = _panels(len(results), *(result.cable for result in results))
-    handles: list[Artist] = []
+    """One panel a result, one above the other: its smallest set, and what it is needed for."""
+    figure, panels = _panels(len(results), *(result.cable.diagram.size for result in results))
+    handles: dict[str, Artist] = {}
     for axes, result in zip(panels, results, strict=True):
-        cable = result.cable
-        shades = draw_regions(axes, result.lcf.regions)
-        draw_cable(axes, cable)
-        handles = [*draw_robots(axes, cable, result.supports), *shades]
-        kind = result.requirements.formulation
-        if find_formulation(kind).is_taut:
-            handles += draw_spans(axes, cable, result.supports)
-        axes.set_title(f"{kind}, cut {cable.cut}: {result.robots} robots", fontsize=9)
-    return titled(figure, title, handles)
+        handles |= {str(each.get_label()): each for each in _draw_smallest(axes, result)}
+        words = f"{result.requirements.words}, cut {result.cable.cut}: {result.robots} robots"
+        axes.set_title(words, fontsize=9)
+    return titled(figure, title, list(handles.values()))
+
+
+def _draw_smallest(axes: Axes, result: MinimalSupports) -> list[Artist]:
+    """A smallest set, and below it the regions that it keeps open, or the loops that show that no
+    smaller one would do.
+    """
+    cable, rules = result.cable, find_formulation(result.requirements.formulation)
+    below: Sequence[Artist] = (
+        draw_regions(axes, result.lcf.regions)
+        if rules.has_openness
+        else draw_loops(axes, cable, result.disjoint_loops)
+    )
+    draw_cable(axes, cable)
+    handles = draw_robots(axes, cable, result.supports)
+    if rules.is_taut:
+        handles += draw_spans(axes, cable, result.supports)
+    return [*handles, *below]
 
 
 def titled(figure: Figure, title: str, handles: Sequence[Artist], columns: int = 2) -> Figure:
@@ -131,8 +166,8 @@ LEGEND: dict[str, Any] = {
 }
 
 
-def _panels(count: int, *cables: Cable) -> tuple[Figure, list[Axes]]:
-    side = max(PANEL, *(0.25 * cable.diagram.size for cable in cables))
+def _panels(count: int, *sizes: int) -> tuple[Figure, list[Axes]]:
+    side = max(PANEL, *(0.25 * size for size in sizes))
     figure = Figure(figsize=(side, count * side + 0.9), layout="constrained")
     axes = figure.subplots(count, 1, squeeze=False)[:, 0]
     return figure, list(axes)

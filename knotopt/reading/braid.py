@@ -8,17 +8,19 @@ from typing import Any
 from knotopt.errors import DiagramError
 from knotopt.planar.braid import from_braid
 from knotopt.reading.codes import (
+    behind_its_name,
     check_crossings,
     flat_numbers,
     is_named,
+    is_something_else,
     looks_like_dt,
     looks_like_gauss,
+    numbers_in,
 )
 from knotopt.reading.content import Content
 from knotopt.reading.record import Asked, Reading
 
-_HEADS = {"Braid", "BR"}
-_PREFIX = re.compile(r"\s*(?:BR|Braid)(?:\s?word)?\s*[:=]\s*", re.IGNORECASE)
+_HEADS = ("Braid", "BR")
 _GENERATOR = re.compile(
     r"(?:s|σ|sigma)_?\{?(\d{1,6})\}?(?:\^?[{(]?([+-]?\d{1,6})[})]?)?(?=[\s*.·,sσ]|$)[\s*.·,]*"
 )
@@ -36,28 +38,24 @@ def read(content: Content, asked: Asked) -> Reading | None:
     DiagramError
         Naming the letter that is wrong, or how many components the closure has.
     """
-    prefix = _PREFIX.match(content.text)
-    text = content.text[prefix.end() :] if prefix else content.text
-    named = is_named(content, asked, "braid", _HEADS) or prefix is not None
-    if content.given is None:
-        word = _alphabetic(text.strip(), named)
-        word = _generators(text.strip()) if word is None else word
-        if word is not None:
-            return _reading(word, None)
-    value = content.value
-    if (pair := _with_strands(value)) is not None:
+    content = behind_its_name(content, "braid", "br|braid")
+    named = is_named(content, asked, "braid", _HEADS)
+    word = _in_letters(content.text.strip(), named) if content.given is None else None
+    if word is not None:
+        return _reading(word, None)
+    if is_something_else(content, _HEADS):
+        return None
+    if (pair := _with_strands(content.value)) is not None:
         return _reading(*pair)
     numbers = flat_numbers(content)
     if numbers is not None:
-        if not named and (looks_like_dt(numbers) or looks_like_gauss(numbers)):
-            return None
-        return _reading(numbers, None)
-    rows = [[]] if named and value == [] else content.rows
-    if rows and (rows == [[]] or _are_words(rows, named)):
+        another = not numbers or looks_like_dt(numbers) or looks_like_gauss(numbers)
+        return None if another and not named else _reading(numbers, None)
+    rows = content.rows
+    if rows and _are_words(rows, named):
         found = _reading(rows[0], None)
-        more = (f"the first of {len(rows)} braid words",) if len(rows) > 1 else ()
-        return Reading(found.diagram, (*found.notes, *more))
-    if named and value is not None:
+        return Reading(found.diagram, (*found.notes, f"the first of {len(rows)} braid words"))
+    if named and content.value is not None:
         raise DiagramError("a braid word is a list of whole numbers, +i or -i for each crossing")
     return None
 
@@ -72,9 +70,10 @@ def _with_strands(value: Any) -> tuple[list[int], int] | None:
     if not (isinstance(value, list) and len(value) == 2):
         return None
     for strands, word in (value, value[::-1]):
-        if isinstance(strands, int) and not isinstance(strands, bool) and isinstance(word, list):
-            numbers = Content("").inside("braid", word).numbers if word else []
-            return None if numbers is None else (numbers, strands)
+        count = numbers_in([strands])
+        letters = numbers_in(word) if isinstance(word, list) else None
+        if count is not None and letters is not None:
+            return letters, count[0]
     return None
 
 
@@ -85,6 +84,12 @@ def _are_words(rows: list[list[Any]], named: bool) -> bool:
         return False
     lengths = {*map(len, rows)}
     return named or (min(lengths) > 2 and len(lengths) > 1 and min(entries) < 0)
+
+
+def _in_letters(text: str, named: bool) -> list[int] | None:
+    """The word that a text without brackets is; None if it is anything else."""
+    word = _alphabetic(text, named)
+    return _generators(text) if word is None else word
 
 
 def _alphabetic(text: str, named: bool) -> list[int] | None:
@@ -103,6 +108,9 @@ def _alphabetic(text: str, named: bool) -> list[int] | None:
 def _generators(text: str) -> list[int] | None:
     """The word in generators s1, sigma_2^-1, ...; from s0 on, as Sage prints them, if s0 occurs."""
     text = re.sub("⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda power: f"^{power[0]}".translate(_SUPERSCRIPTS), text)
+    if not _GENERATOR.match(text):
+        return None
+    check_crossings(text.count("s") + text.count("σ"))
     if not re.fullmatch(f"(?:{_GENERATOR.pattern})+", text):
         return None
     powers = [(int(number), int(power or 1)) for number, power in _GENERATOR.findall(text)]

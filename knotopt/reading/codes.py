@@ -13,6 +13,7 @@ KnotInfo's table is so near to another code.
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Collection, Sequence
 from typing import Any
@@ -21,10 +22,13 @@ from knotopt.errors import DiagramError
 from knotopt.planar.embedding import parts
 from knotopt.planar.planar_diagram import PlanarDiagram
 from knotopt.reading.content import Content
+from knotopt.reading.lists import Lists
 from knotopt.reading.record import Asked
 
-MAX_CROSSINGS = 5000
-"""Of a code that is read; to draw one in the plane that tells no signs takes 2 s."""
+_PLAIN = ("array", "list", "tuple", "vector", "matrix")
+
+MAX_CROSSINGS = 1000
+"""Of a code that is read: to draw so many crossings on a grid and simplify it takes 20 s."""
 
 
 def check_crossings(count: int) -> None:
@@ -47,19 +51,38 @@ def is_named(content: Content, asked: Asked, form: str, heads: Collection[str] =
     )
 
 
+def behind_its_name(content: Content, form: str, words: str = "") -> Content:
+    """What follows "DT: ", "Gauss code = " or the like in a text; else the content as it is."""
+    name = rf"\s*(?:{words or form})(?:[ _](?:code|word|notation))?\s*[:=]\s*"
+    head = re.match(name, content.text, re.IGNORECASE)
+    return content if head is None else Content(content.text[head.end() :], None, form)
+
+
+def is_something_else(content: Content, heads: Collection[str] = ()) -> bool:
+    """Whether a word before the brackets says that it is neither a plain list nor of these."""
+    return not {head.split(".")[-1] for head in content.heads} <= {*heads, *_PLAIN}
+
+
 def flat_numbers(content: Content) -> list[int] | None:
     """A list of whole numbers, in one pair of brackets or in two; None if it is anything else."""
     value = content.value
     if isinstance(value, list) and len(value) == 1 and isinstance(value[0], list):
         content = content.inside(content.key, value[0])
+    if content.value == []:
+        return []
     return content.numbers if isinstance(content.value, list) else None
+
+
+def numbers_in(value: Any) -> list[int] | None:
+    """A list of whole numbers, however written, as int; None if it is anything else."""
+    return value if value == [] else Content("", Lists(value)).numbers
 
 
 def looks_like_dt(numbers: Sequence[int]) -> bool:
     """Whether most of the numbers are even, and most occur once."""
     even = sum(number % 2 == 0 for number in numbers)
     once = len({*map(abs, numbers)})
-    return 3 * min(even, once) >= 2 * len(numbers)
+    return 3 * min(even, once) >= 2 * len(numbers) > 0
 
 
 def looks_like_gauss(numbers: Sequence[int]) -> bool:
@@ -68,7 +91,7 @@ def looks_like_gauss(numbers: Sequence[int]) -> bool:
     paired = sum(
         count == 2 and signed[number] == signed[-number] == 1 for number, count in either.items()
     )
-    return 2 * paired >= len(either)
+    return 2 * paired >= len(either) > 0
 
 
 def up_to_mirror(diagram: PlanarDiagram) -> tuple[str, ...]:

@@ -8,18 +8,19 @@ from collections.abc import Sequence
 from knotopt.errors import DiagramError
 from knotopt.planar.dt import MOST_LETTERS, dt_numbers, from_dt
 from knotopt.reading.codes import (
+    behind_its_name,
     check_crossings,
     flat_numbers,
     is_named,
+    is_something_else,
     looks_like_dt,
     up_to_mirror,
 )
 from knotopt.reading.content import Content
-from knotopt.reading.lists import parse_lists
 from knotopt.reading.record import Asked, Reading
 
-_HEAD = re.compile(r"\s*DT(?:\s?code)?\s*(?=[:=\[(\s])\s*[:=]?\s*", re.IGNORECASE)
-_LETTERS = re.compile(r"[\[(\s\"']*([A-Za-z]+)(?:\.([01]*))?[\])\s\"']*")
+_HEADS = ("DT", "DTCode")
+_LETTERS = re.compile(r"\s*(?:DT(?=[\[(]))?[\[(\s\"']*([A-Za-z]+)(?:\.([01]*))?[\])\s\"']*")
 _FLIPS = re.compile(r"(\[.*\])\s*,\s*\[([01,\s]*)\]\s*", re.DOTALL)
 
 
@@ -34,20 +35,20 @@ def read(content: Content, asked: Asked) -> Reading | None:
     DiagramError
         Naming the entry or letter that is wrong, or the visit that cannot be reached in the plane.
     """
-    head = _HEAD.match(content.text)
-    text = content.text[head.end() :] if head else content.text
-    named = is_named(content, asked, "dt") or head is not None
+    content = behind_its_name(content, "dt")
+    named = is_named(content, asked, "dt", _HEADS)
     flips: list[int] | None = None
-    if letters := _LETTERS.fullmatch(text):
+    if content.given is None and (letters := _LETTERS.fullmatch(content.text)):
         word, bits = letters.groups()
         if not named and not _is_code(word):
             return None
         return _reading(dt_numbers(word), None if bits is None else [*map(int, bits)])
-    if named and (flipped := _FLIPS.fullmatch(text)):
-        text, flips = flipped[1], [int(bit) for bit in re.findall("[01]", flipped[2])]
-    if head or flips is not None:
-        content = Content("", parse_lists(text), "dt")
-    numbers = [] if named and content.value == [] else flat_numbers(content)
+    if named and (flipped := _FLIPS.fullmatch(content.text)):
+        flips = [int(bit) for bit in re.findall("[01]", flipped[2])]
+        content = Content(flipped[1], None, "dt")
+    if is_something_else(content, _HEADS):
+        return None
+    numbers = flat_numbers(content)
     if numbers is not None:
         return _reading(numbers, flips) if named or looks_like_dt(numbers) else None
     if named and (rows := content.rows) and len(rows) > 1:

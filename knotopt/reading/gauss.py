@@ -8,18 +8,20 @@ from typing import Any
 from knotopt.errors import DiagramError
 from knotopt.planar.gauss import from_gauss
 from knotopt.reading.codes import (
+    behind_its_name,
     check_crossings,
     flat_numbers,
     is_named,
+    is_something_else,
     looks_like_gauss,
+    numbers_in,
     up_to_mirror,
     whole,
 )
 from knotopt.reading.content import Content
 from knotopt.reading.record import Asked, Reading
 
-_HEADS = {"GaussCode"}
-_PREFIX = re.compile(r"\s*Gauss(?:\s?code)?\s*[:=]?\s*(?=[OU]\d|\d+[+-])", re.IGNORECASE)
+_HEADS = ("GaussCode",)
 _VISITS = re.compile(r"\s*(?:[OU]\d|\d+[+-](?:\W|$))", re.IGNORECASE)
 _VISIT = re.compile(r"([OU]?)(\d{1,9})([+-]?)", re.IGNORECASE)
 _SIGNS = {"+": 1, "-": -1}
@@ -33,26 +35,22 @@ def read(content: Content, asked: Asked) -> Reading | None:
     DiagramError
         Naming the visit, crossing or sign that is wrong, or how many components a link has.
     """
-    text = content.text[prefix.end() :] if (prefix := _PREFIX.match(content.text)) else content.text
-    if content.given is None and _VISITS.match(text):
-        return _visits(text)
-    value = content.value
-    named = is_named(content, asked, "gauss", _HEADS)
-    if (oriented := _oriented(value)) is not None:
-        code, signs = oriented
-        return _reading(code, signs)
-    numbers = flat_numbers(content)
-    if numbers is None:
-        if not named or value is None:
-            return None
-        if value == []:
-            return _reading([], None)
-        if (rows := content.rows) and len(rows) > 1:
-            raise DiagramError(f"this Gauss code is a link of {len(rows)} components, a knot has 1")
-        raise DiagramError("a Gauss code is a list of whole numbers, +k over and -k under")
-    if not named and not looks_like_gauss(numbers):
+    content = behind_its_name(content, "gauss")
+    if content.given is None and _VISITS.match(content.text):
+        return _visits(content.text)
+    if is_something_else(content, _HEADS):
         return None
-    return _reading(numbers, None)
+    named = is_named(content, asked, "gauss", _HEADS)
+    if (oriented := _oriented(content.value)) is not None:
+        return _reading(*oriented)
+    numbers = flat_numbers(content)
+    if numbers is not None:
+        return _reading(numbers, None) if named or looks_like_gauss(numbers) else None
+    if named and (rows := content.rows) and len(rows) > 1:
+        raise DiagramError(f"this Gauss code is a link of {len(rows)} components, a knot has 1")
+    if named and content.value is not None:
+        raise DiagramError("a Gauss code is a list of whole numbers, +k over and -k under")
+    return None
 
 
 def _reading(code: list[int], signs: list[int] | None) -> Reading:
@@ -79,7 +77,9 @@ def _oriented(value: Any) -> tuple[list[int], list[int]] | None:
         raise DiagramError(
             f"this Gauss code is a link of {len(components)} components, a knot has 1"
         )
-    code = [whole(entry, f"visit {k}") for k, entry in enumerate(components[0], 1)]
+    code = numbers_in(components[0])
+    if code is None:
+        code = [whole(entry, f"visit {k}") for k, entry in enumerate(components[0], 1)]
     return code, [1 if sign in (1, "+") else -1 for sign in signs]
 
 

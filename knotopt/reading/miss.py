@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 
 from knotopt.errors import FileFormatError, KnotoptError
-from knotopt.reading import names
 from knotopt.reading.content import Content
+from knotopt.reading.near_names import unknown
 
 _LONGEST_NAME = 60
 _NO_FORM = "numbers, but no matrix, marks, arc presentation, PD code or curve"
@@ -26,7 +26,7 @@ def miss(content: Content) -> KnotoptError:
         )
     is_short = "\n" not in text and len(text) <= _LONGEST_NAME
     if content.given is None and is_short and not re.search(r"[\[{]", text):
-        return names.unknown(text)
+        return unknown(text)
     return FileFormatError(_of_lists(content) or _bracket(text) or _line(content) or no_knot)
 
 

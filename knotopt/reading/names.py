@@ -1,19 +1,36 @@
-"""A knot by its name: KnotInfo's, a row of Table I, a torus knot."""
+"""A knot by its name: KnotInfo's and others', in words, torus knots, rows of Table I, and of those
+mirror images (m3_1), connected sums (3_1#m3_1) and the grids searched for them ("8_19 best3").
+"""
 
 from __future__ import annotations
 
-import difflib
 import re
+from dataclasses import dataclass, replace
 
-from knotopt.catalogue.knotinfo import SHIPPED_CROSSINGS, is_installed, knotinfo_knots
-from knotopt.catalogue.knots import shipped_knots
+from knotopt.catalogue.everyday_names import everyday_names, plain
+from knotopt.catalogue.knots import PrimeKnot
+from knotopt.catalogue.prime_names import numbered, prime_named
+from knotopt.catalogue.stored_grids import GRIDS, stored_grids
 from knotopt.catalogue.table1_grids import table1_grids
 from knotopt.diagram.families import torus_knot
-from knotopt.errors import UnknownKnotError, require_extra
+from knotopt.diagram.grid import GridDiagram
+from knotopt.diagram.sums import connected_sum
+from knotopt.errors import UnknownKnotError
 from knotopt.reading.content import Content
+from knotopt.reading.near_names import unknown
 from knotopt.reading.record import Asked, Reading
 
-_LONGEST = 200
+LONGEST = 200
+_DEEPEST = 10  # mirror images of mirror images
+_MIRROR_BEFORE = re.compile(
+    r"(?:mirror(?:\s+image)?(?:\s+of)?(?![a-z])|m(?![a-z]{2})|[-\u2212])\s*", re.IGNORECASE
+)
+_BEST = re.compile(r"(.*?\S)\s+(?:best\s*([34])|safe\s*(0?\.25|0?\.5)?)", re.IGNORECASE)
+_TORUS = re.compile(
+    r"(?:t|torus|torus\s*knot)\s*(?:_\s*)?[({\[]\s*([-\u2212]?[0-9]{1,18})\s*,"
+    r"\s*([-\u2212]?[0-9]{1,18})\s*[)}\]]",
+    re.IGNORECASE,
+)
 
 
 def read(content: Content, _asked: Asked) -> Reading | None:
@@ -25,45 +42,155 @@ def read(content: Content, _asked: Asked) -> Reading | None:
         A torus link of several components.
     MissingExtraError
         A knot of 11 to 13 crossings without the `knotinfo` extra.
+    UnknownKnotError
+        A connected sum of which one summand, but not every one, is a knot; or a grid that is not
+        stored.
     """
-    text = content.text
-    if len(text) > _LONGEST or "\n" in text.strip():
+    text = content.text.strip()
+    if len(text) > LONGEST or "\n" in text:
         return None
-    torus = re.fullmatch(
-        r"\s*T\(\s*(-?[0-9]{1,18})\s*,\s*(-?[0-9]{1,18})\s*\)\s*", text, re.IGNORECASE
+    found = _knot(text, _DEEPEST)
+    return None if found is None else Reading(**vars(found))
+
+
+@dataclass(frozen=True)
+class _Named:
+    """What is put into a `Reading`."""
+
+    name: str
+    diagram: GridDiagram
+    source: str
+    notes: tuple[str, ...] = ()
+    prime_knot: PrimeKnot | None = None
+    ambiguous: bool = False
+
+
+def _knot(text: str, deep: int) -> _Named | None:
+    """A knot, its mirror image or a connected sum, with so many brackets and signs about it."""
+    text = text.strip()
+    summands = _summands(text)
+    if len(summands) > 1:
+        return _sum(summands, deep)
+    found = _single(text)
+    if found is not None or not deep:
+        return found
+    if text.startswith("(") and text.endswith(")"):
+        return _knot(text[1:-1], deep - 1)
+    sign = _MIRROR_BEFORE.match(text)
+    inner = text[sign.end() :] if sign else text[:-1] if text.endswith(("*", "!")) else ""
+    if inner.startswith("[") and inner.endswith("]"):  # Mirror[Knot[3, 1]]
+        inner = inner[1:-1]
+    found = _knot(inner, deep - 1) if inner else None
+    return None if found is None else _mirrored(found)
+
+
+def _summands(text: str) -> list[str]:
+    """The parts between the signs # that stand outside brackets."""
+    parts, depth = [""], 0
+    for letter in text:
+        depth += (letter in "([{") - (letter in ")]}")
+        if letter == "#" and not depth:
+            parts.append("")
+        else:
+            parts[-1] += letter
+    return parts
+
+
+def _sum(texts: list[str], deep: int) -> _Named | None:
+    found = [_knot(text, deep) for text in texts]
+    known = [each for each in found if each is not None]
+    if len(known) < len(found):
+        if known:
+            raise unknown(texts[found.index(None)].strip())
+        return None
+    knotted = [each for each in known if each.diagram.size > 2]
+    if len(knotted) < 2:
+        return (knotted or known)[0]
+    return _Named(
+        "#".join(each.name for each in knotted),
+        connected_sum([each.diagram for each in knotted]),
+        "connected sum",
+        tuple(dict.fromkeys(note for each in knotted for note in each.notes)),
+        ambiguous=any(each.ambiguous for each in knotted),
     )
+
+
+def _mirrored(knot: _Named) -> _Named:
+    """The mirror image: of each summand, and of a torus knot T(p,-q)."""
+    notes = knot.notes
+    if knot.prime_knot is not None and knot.prime_knot.is_amphicheiral:
+        notes = (*notes, f"{knot.prime_knot.name} is its own mirror image")
+    return replace(
+        knot,
+        name="#".join(mirror_name(name) for name in knot.name.split("#")),
+        diagram=knot.diagram.mirrored,
+        notes=notes,
+        prime_knot=None,
+    )
+
+
+def mirror_name(name: str) -> str:
+    """The mirror image's name.
+
+    Examples
+    --------
+    >>> mirror_name("3_1"), mirror_name("m3_1"), mirror_name("T(2,-3)")
+    ('m3_1', '3_1', 'T(2,3)')
+    """
+    torus = re.fullmatch(r"T\((-?\d+),(-?)(\d+)\)", name)
     if torus:
-        p, q = (int(number) for number in torus.groups())
-        return Reading(torus_knot(p, q), name=f"T({p},{q})", source="torus knot")
-    squeezed = re.sub(r"\s", "", text).lower()
+        return f"T({torus[1]},{'' if torus[2] else '-'}{torus[3]})"
+    return name.removeprefix("m") if name.startswith("m") else f"m{name}"
+
+
+def _single(text: str) -> _Named | None:
+    """What has a name of its own."""
+    squeezed = re.sub(r"\s", "", text).casefold()
     for grid in table1_grids():
-        if squeezed == grid.row.replace(" ", "").lower():
-            return Reading(grid.diagram, name=grid.knot, source=f"Table I, row {grid.row}")
-    name = _knotinfo_name(squeezed)
-    crossings = re.match(r"(\d{1,3})[an]?_", name)
-    knots = shipped_knots()
-    if name not in knots and crossings and is_installed():
-        knots = knotinfo_knots()
-    if name in knots:
-        return Reading(knots[name].diagram, name=name, source="KnotInfo", prime_knot=knots[name])
-    if crossings and SHIPPED_CROSSINGS < int(crossings[1]) <= 13:
-        require_extra("database_knotinfo", "knotinfo", f"knot {name!r}")
-    return None
+        if squeezed == grid.row.replace(" ", "").casefold():
+            return _Named(grid.knot, grid.diagram, f"Table I, row {grid.row}")
+    best = _BEST.fullmatch(text)
+    if best:
+        openness = f"{float(best[3] or 0.5):g}"
+        return _stored(best[1], f"best{best[2]}" if best[2] else f"safe{openness}")
+    torus = _TORUS.fullmatch(text)
+    if torus:
+        p, q = (int(number.replace("\u2212", "-")) for number in torus.groups())
+        return _Named(f"T({p},{q})", torus_knot(p, q), "torus knot")
+    knot = prime_named(text)
+    if knot is not None:
+        name = numbered(text)
+        note = f"{name} is {knot.name} or its mirror image, here as in KnotInfo"
+        notes = () if name == knot.name else (note,)
+        return _Named(knot.name, knot.diagram, "KnotInfo", notes, knot)
+    return _in_words(text)
 
 
-def unknown(text: str) -> UnknownKnotError:
-    """What is said of a text that is no form of a knot: the nearest names."""
-    squeezed = re.sub(r"\s", "", text).lower()[:_LONGEST]
-    large = bool(re.match("k?1[123]", squeezed))
-    knots = knotinfo_knots() if large and is_installed() else shipped_knots()
-    rows = dict.fromkeys(grid.row for grid in table1_grids())
-    near = [row for row in rows if squeezed and row.lower().startswith(squeezed)]
-    near += difflib.get_close_matches(_knotinfo_name(squeezed), [*knots, *rows], n=3, cutoff=0.3)
-    hint = f"; nearest: {', '.join(near)}" if near else "; `knotopt knots` lists the names"
-    shown = text if len(text) <= 60 else f"{text[:57]}..."
-    return UnknownKnotError(f"no knot is named {shown!r}{hint}")
+def _stored(text: str, name: str) -> _Named | None:
+    """A knot's grid that was searched for; of a mirror image, the grid's mirror image."""
+    knot = _knot(text, _DEEPEST)
+    if knot is None:
+        return None
+    stored = stored_grids().get((knot.name.removeprefix("m"), name))
+    if stored is None:
+        raise UnknownKnotError(
+            f"no grid {name} is stored of {knot.name}: {', '.join(GRIDS)} are of the "
+            "prime knots up to 10 crossings"
+        )
+    diagram = stored.diagram.mirrored if knot.name.startswith("m") else stored.diagram
+    return replace(knot, diagram=diagram, source=f"{knot.source}; best grid found, {GRIDS[name]}")
 
 
-def _knotinfo_name(squeezed: str) -> str:
-    """SnapPy's K11a1 is KnotInfo's 11a_1."""
-    return re.sub(r"k?(\d+)([an])_?(\d+)", r"\1\2_\3", squeezed)
+def _in_words(text: str) -> _Named | None:
+    entry = everyday_names().get(plain(text))
+    if entry is None:
+        return None
+    found = _knot(entry.knot, _DEEPEST)
+    if found is None:
+        return None
+    note = f"{text} is {entry.knot}"
+    if entry.either_hand:
+        note += " or its mirror image, here as in KnotInfo"
+    if entry.note:
+        note += f" ({entry.note})"
+    return replace(found, notes=(note,), ambiguous=entry.either_hand)

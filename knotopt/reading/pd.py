@@ -9,11 +9,11 @@ from typing import Any
 
 from knotopt.errors import DiagramError
 from knotopt.planar.planar_diagram import PlanarDiagram
-from knotopt.reading.codes import check_crossings, is_named, whole
+from knotopt.reading.codes import check_crossings, is_named, is_something_else, whole
 from knotopt.reading.content import Content
 from knotopt.reading.record import Asked, Reading
 
-_HEADS = {"PD", "X", "Xp", "Xm"}  # Xp, Xm: KnotTheory's crossings with their sign
+_HEADS = ("PD", "X", "Xp", "Xm", "Loop")  # Xp, Xm: KnotTheory's crossings with their sign
 _ATLAS = re.compile(r"X(?:(\d)(\d)(\d)(\d)(?!\d)|(\d{1,6}),(\d{1,6}),(\d{1,6}),(\d{1,6}))[\s,;]*")
 
 
@@ -30,30 +30,24 @@ def read(content: Content, asked: Asked) -> Reading | None:
     value = content.value
     if callable(getattr(value, "PD_code", None)):
         return Reading(_of_link(value), source="link object")
-    heads = set(content.heads)
+    if is_something_else(content, _HEADS):
+        return None
     named = is_named(content, asked, "pd", _HEADS)
-    if isinstance(value, list) and heads <= {*_HEADS, "Loop"} and "Loop" in heads:
-        return Reading(PlanarDiagram(()))  # PD[Loop[1]], KnotTheory's unknot
-    if crossings := _of_atlas(content.text):
-        return Reading(PlanarDiagram.from_edges(crossings))
-    rows = content.rows
-    if named and isinstance(value, list) and not any(isinstance(entry, list) for entry in value):
+    rows: list[list[Any]] | None = _of_atlas(content.text) or content.rows
+    if "Loop" in content.heads:
+        rows = []  # PD[Loop[1]], KnotTheory's unknot
+    elif named and isinstance(value, list) and not any(isinstance(x, list) for x in value):
         rows = [value] if value else []  # X[1,1,2,2] alone; PD[]
-    if rows is None:
+    if rows is None or not (named or _are_crossings(rows)):
         if named and value is not None:
             raise DiagramError("a PD code is a list of crossings, of four edges each")
         return None
-    if not named and not _are_crossings(rows):
-        return None
     check_crossings(len(rows))
-    return Reading(
-        PlanarDiagram.from_edges(
-            [
-                [whole(e, f"edge {k} of crossing {number}") for k, e in enumerate(row, 1)]
-                for number, row in enumerate(rows, 1)
-            ]
-        )
-    )
+    crossings = [
+        [whole(edge, f"edge {k} of crossing {number}") for k, edge in enumerate(row, 1)]
+        for number, row in enumerate(rows, 1)
+    ]
+    return Reading(PlanarDiagram.from_edges(crossings))
 
 
 def _of_link(link: Any) -> PlanarDiagram:
@@ -67,12 +61,12 @@ def _of_link(link: Any) -> PlanarDiagram:
 
 def _of_atlas(text: str) -> list[list[int]]:
     """Crossings written as X1524 or X10,2,11,1; empty if the text is anything else."""
-    text = text.strip()
-    if not re.fullmatch(f"(?:{_ATLAS.pattern})+", text):
+    if not _ATLAS.match(text.lstrip()):
         return []
-    found = [[int(edge) for edge in groups if edge] for groups in _ATLAS.findall(text)]
-    check_crossings(len(found))
-    return found
+    check_crossings(text.count("X"))
+    if not re.fullmatch(rf"\s*(?:{_ATLAS.pattern})+", text):
+        return []
+    return [[int(edge) for edge in groups if edge] for groups in _ATLAS.findall(text)]
 
 
 def _are_crossings(rows: Sequence[Sequence[Any]]) -> bool:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from knotopt.catalogue.knots import PrimeKnot
 from knotopt.diagram.grid import GridDiagram
 from knotopt.planar.planar_diagram import PlanarDiagram
+from knotopt.showing import ShownShort
 
 
 @dataclass(frozen=True)
@@ -54,8 +55,8 @@ class Reading:
     ambiguous: bool = False
 
 
-@dataclass(frozen=True)
-class NamedDiagram:
+@dataclass(frozen=True, repr=False)
+class NamedDiagram(ShownShort):
     """A grid diagram and what it was asked for by.
 
     Attributes
@@ -82,3 +83,8 @@ class NamedDiagram:
     form: str = "grid"
     notes: tuple[str, ...] = ()
     ambiguous: bool = False
+
+    @property
+    def in_words(self) -> str:
+        """Name, source, grid size."""
+        return f"{self.name} ({self.source}), grid of size {self.diagram.size}"

@@ -17,6 +17,7 @@ from knotopt.planar.braid_of_grid import braid_of_grid
 from knotopt.planar.dt import dt_code
 from knotopt.planar.from_grid import planar_diagram
 from knotopt.planar.gauss import gauss_letters
+from knotopt.planar.planar_diagram import PlanarDiagram
 
 
 @dataclass(frozen=True)
@@ -58,17 +59,23 @@ def write_knot(diagram: GridDiagram, form: str) -> str:
     return WRITTEN_FORMS[form].write(diagram)
 
 
+def _planar(diagram: GridDiagram) -> PlanarDiagram:
+    """The planar diagram; a circle without crossings, which has no code, gets one loop."""
+    planar = planar_diagram(diagram)
+    return planar if planar.crossings else PlanarDiagram(((0, 0, 1, 1),))
+
+
 def _pd(diagram: GridDiagram) -> str:
-    return f"{[list(crossing) for crossing in planar_diagram(diagram).pd_code]}\n"
+    return f"{[list(crossing) for crossing in _planar(diagram).pd_code]}\n"
 
 
 def _dt(diagram: GridDiagram) -> str:
-    labels = ", ".join(map(str, dt_code(planar_diagram(diagram))))
+    labels = ", ".join(map(str, dt_code(_planar(diagram))))
     return f"DT: [({labels})]\n"
 
 
 def _gauss(diagram: GridDiagram) -> str:
-    return gauss_letters(planar_diagram(diagram)) + "\n"
+    return gauss_letters(_planar(diagram)) + "\n"
 
 
 def _braid(diagram: GridDiagram) -> str:

@@ -28,7 +28,7 @@ from knotopt.rehearsal.rehearse import rehearse_flight
 from knotopt.sim.judge import Outcome, Verdict
 from knotopt.sim.simulators import MUJOCO, Simulator
 from knotopt.sim.trials import fly_trials
-from knotopt.supports.by_size import Supports, sets_in_order
+from knotopt.supports.by_size import Lacks, Supports, sets_in_order
 from knotopt.supports.minimal import MinimalSupports
 from knotopt.supports.requirements import Requirements
 from knotopt.supports.search import CutSearch
@@ -170,6 +170,7 @@ def solve_flown(
     cuts: Iterable[Cut] | None = None,
     solver: str = DEFAULT,
     limits: Limits | None = None,
+    lacks: Lacks | None = None,
     known: Sequence[CutOff] = (),
     fly: Fly | None = None,
     on_cut_off: Callable[[CutOff], None] | None = None,
@@ -180,8 +181,9 @@ def solve_flown(
     ----------
     name : str
         Of the knot.
-    diagram, requirements, cuts, solver, limits
-        As for `sets_in_order`; the time limit is for each solve.
+    diagram, requirements, cuts, lacks, solver, limits
+        As for `sets_in_order`; the time limit is for each solve. Sets that fail the test are not
+        flown.
     tests : FlightTests, optional
         What each set is put to, and how many sets; those known are counted.
     known : sequence of CutOff
@@ -209,7 +211,13 @@ def solve_flown(
         passed[Cut.parse(each.cut, diagram.size)].append(each.supports)
     cut_off = list(known)
     for search in sets_in_order(
-        diagram, requirements, cuts=cuts, excluded=passed, solver=solver, limits=limits
+        diagram,
+        requirements,
+        cuts=cuts,
+        excluded=passed,
+        lacks=lacks,
+        solver=solver,
+        limits=limits,
     ):
         best = search.best
         tied: FlownSet | None = None

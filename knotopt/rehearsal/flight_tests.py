@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from knotopt.errors import RequirementError
+from knotopt.ranges import LARGEST_NOISE, MOST_FLIGHTS, check_at_most
 
 if TYPE_CHECKING:  # the command line takes its defaults from here: no arrays for `--help`
     from knotopt.flight.record import Disturbance
@@ -51,6 +52,7 @@ class FlightTests:
     def __post_init__(self) -> None:
         if not (math.isfinite(self.noise) and self.noise >= 0):
             raise RequirementError(f"the noise is a number of metres from 0 up, not {self.noise:g}")
+        check_at_most(self, {"noise": (LARGEST_NOISE, " m"), "trials": (MOST_FLIGHTS, "")})
         if self.trials < 1:
             raise RequirementError(f"the disturbed flights are at least 1, not {self.trials}")
         if self.seconds is not None and not self.seconds > 0:

@@ -1,12 +1,13 @@
 """Sets of supports in order: fewest robots first, then by cut, then the canonical one of a cut.
 
 A set that was given is excluded by a row of its own, and its cut is solved again; the other cuts
-keep what is known of them.
+keep what is known of them. A set that fails a further test is passed over in the same way, by the
+row that the test gives.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from formulations.backends import DEFAULT
@@ -20,6 +21,10 @@ from knotopt.supports.requirements import Requirements
 from knotopt.supports.search import CutOutcome, CutSearch
 
 Supports = tuple[int, ...]
+Clause = tuple[int, ...]
+Lacks = Callable[[MinimalSupports], Clause | None]
+"""What a set says of others if it fails a test: a clause, as in `Requirements.clauses`, that every
+set that passes satisfies and it does not. None if it passes."""
 
 
 @dataclass(frozen=True)
@@ -90,6 +95,7 @@ def sets_in_order(
     *,
     cuts: Iterable[Cut] | None = None,
     excluded: Mapping[Cut, Sequence[Supports]] | None = None,
+    lacks: Lacks | None = None,
     solver: str = DEFAULT,
     limits: Limits | None = None,
 ) -> Iterator[CutSearch]:
@@ -104,6 +110,8 @@ def sets_in_order(
         By default every crossing-free one; among equals the first cut comes first.
     excluded : mapping of Cut to sets, optional
         Sets that are passed over.
+    lacks : callable, optional
+        A test that sets must pass to be given.
     solver, limits
         As for `minimal_supports`; the time limit is for each solve. Where it strikes, sets may come
         out of order, and `is_proven` says so.
@@ -145,10 +153,21 @@ def sets_in_order(
         if state.result is None:
             _solve(state, index, states, solver, limits)
             continue
+        if state.cut_off(state.result, lacks):
+            continue
         best = canonical_supports(state.result, solver=solver, limits=limits)
-        yield CutSearch(best, tuple(each.outcome for each in states))
+        if state.cut_off(best, lacks):
+            continue
+        cut_off = None if lacks is None else _clauses(states)
+        yield CutSearch(best, tuple(each.outcome for each in states), cut_off=cut_off)
         state.exclude(best.supports)
-    yield _nothing_left(asked, states, solver, limits)
+    nothing = _nothing_left(asked, states, solver, limits)
+    yield nothing if lacks is None else replace(nothing, cut_off=_clauses(states))
+
+
+def _clauses(states: list[_CutState]) -> int:
+    """How many sets have failed the test."""
+    return sum(len(state.asked.clauses) for state in states)
 
 
 @dataclass
@@ -196,6 +215,15 @@ class _CutState:
         self.asked = _without(self.asked, [supports])
         self.answer = None
 
+    def cut_off(self, chosen: MinimalSupports, lacks: Lacks | None) -> bool:
+        """Whether a set fails the test; then this cut is to be solved again."""
+        clause = None if lacks is None else lacks(chosen)
+        if clause is None:
+            return False
+        self.asked = replace(self.asked, clauses=(*self.asked.clauses, clause))
+        self.answer = None
+        return True
+
 
 def _without(asked: Requirements, sets: Sequence[Supports]) -> Requirements:
     return replace(asked, excluded=(*asked.excluded, *sets))
@@ -238,6 +266,7 @@ def _nothing_left(
     )
     assert first.answer is not None
     best = first.answer
-    if best.solution.status is Status.INFEASIBLE and not any(s.asked.excluded for s in states):
+    passed = any(state.asked.excluded or state.asked.clauses for state in states)
+    if best.solution.status is Status.INFEASIBLE and not passed:
         best = minimal_supports(first.cable, asked, solver=solver, limits=limits)
     return CutSearch(best, outcomes)

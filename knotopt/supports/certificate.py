@@ -36,7 +36,8 @@ def prove(
         What to call the knot.
     diagram : GridDiagram
     requirements : Requirements, optional
-        Formulation, openness and threading mode; nothing else can be certified.
+        Formulation, with loops or without, openness and threading mode; nothing else can be
+        certified.
     cuts : iterable of Cut, optional
         By default every crossing-free one.
     method : str, optional
@@ -54,10 +55,14 @@ def prove(
         The minimum was not proven within the limits, or there are too many sets to count.
     """
     asked = requirements or Requirements()
-    if asked != Requirements(asked.formulation, asked.openness, asked.threading):
+    with_loops = asked.with_loops
+    certified = Requirements(
+        asked.formulation, asked.openness, asked.threading, with_loops=with_loops
+    )
+    if asked != certified:
         raise RequirementError(
-            "a certificate is about a formulation, an openness and a threading mode; "
-            "leave out the other options"
+            "a certificate is about a formulation, with loops or without, an openness and a "
+            "threading mode; leave out the other options"
         )
     proofs = find_formulation(asked.formulation).proofs
     method = method or next(iter(proofs))
@@ -73,11 +78,13 @@ def prove(
         raise CertificateError(f"{name}: the minimum was not proven within the limits")
     bounds = []
     for cut in chosen:
-        program = compile_program(lcf(Cable(diagram, cut)), asked)
+        cable = Cable(diagram, cut)
+        program = compile_program(lcf(cable), asked)
         instance = program.instance(float(asked.openness**2))
         bound = {"cut": str(cut), "instance": instance.hash, "method": method}
         try:
-            proof = proofs[method](Claim(program, instance, asked.openness, best.robots))
+            claim = Claim(cable, program, instance, asked.openness, best.robots)
+            proof = proofs[method](claim)
         except CertificateError as error:
             raise CertificateError(f"{name}, cut {cut}: {error}") from error
         except MissingSolverError as error:
@@ -88,6 +95,7 @@ def prove(
         "knot": name,
         "grid": [list(mark) for mark in diagram.marks],
         "formulation": asked.formulation,
+        **({"with": "loops"} if with_loops else {}),
         "openness": str(asked.openness),
         "threading": str(asked.threading),
         "robots": best.robots,

@@ -10,6 +10,7 @@ from typing import Any, Generic, TypeVar
 from formulations.canonical import Program
 from formulations.instance import Instance
 from formulations.team import Team
+from knotopt.cable.cable import Cable
 from knotopt.supports.regions import Regions
 from knotopt.supports.threading import Threading
 from knotopt.verify.definition import Checker
@@ -25,6 +26,7 @@ class Claim(Generic[P_co]):
 
     Attributes
     ----------
+    cable : Cable
     program : Program
         The formulation's, of this cable.
     instance : Instance
@@ -33,6 +35,7 @@ class Claim(Generic[P_co]):
     robots : int
     """
 
+    cable: Cable
     program: P_co
     instance: Instance
     openness: Fraction
@@ -62,6 +65,14 @@ class Formulation(Generic[P]):
         Whether a strand threads a region only where it first turns inside.
     is_taut : bool
         Whether it is about the taut cable, straight between robots, which pictures then show.
+    has_openness : bool
+        Whether its sets depend on r.
+    adjective : str
+        What a set is that meets it.
+    meaning : str
+        What its smallest number is, and is not, for the reader; "" where `words` say it all.
+    with_loops : bool
+        Whether a support on every loop is asked for, too, where nothing is said of it.
     """
 
     name: str
@@ -72,8 +83,11 @@ class Formulation(Generic[P]):
     openness: Fraction = Fraction(1, 2)
     threads_once: bool = False
     is_taut: bool = False
+    has_openness: bool = True
+    adjective: str = "open"
+    meaning: str = ""
+    with_loops: bool = False
 
-    @property
-    def check(self) -> Checker:
+    def checker(self, *, with_loops: bool) -> Checker:
         """Examines a set by the definition, as the checkers' own table has it."""
-        return DEFINITIONS[self.name].check
+        return DEFINITIONS[self.name].checker(with_loops=with_loops)

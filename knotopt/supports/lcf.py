@@ -17,7 +17,7 @@ from knotopt.supports.support_set import SupportSet
 _ENTRIES_AT_ONCE = 1 << 20  # bounds the memory of arrays of active regions by turning points
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class LcfResult(SupportSet):
     """Supports that LCF selects on one cable.
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from formulations.backends import DEFAULT, get_backend
-from formulations.canonical import Program, lexicographically_first, widest
+from formulations.canonical import Program, at_once, lexicographically_first, widest
 from formulations.infeasible import Group, conflict
 from formulations.instance import Instance
 from formulations.solution import (
@@ -25,6 +25,7 @@ from formulations.timing import Deadline
 from knotopt.cable.cable import Cable
 from knotopt.errors import MissingExtraError, RequirementError, SolverError
 from knotopt.supports.lcf import LcfResult, lcf
+from knotopt.supports.loops import LOOPS, disjoint_loops
 from knotopt.supports.registry import find_formulation
 from knotopt.supports.requirements import Requirements
 from knotopt.supports.support_set import SupportSet
@@ -34,7 +35,7 @@ from knotopt.verify.definition import OpeningReport
 SMALLEST = 1e-9  # squared openness that any opening at all exceeds [grid steps^2]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class MinimalSupports(SupportSet):
     """The smallest set of supports found on one cable, and how sure that is.
 
@@ -80,6 +81,14 @@ class MinimalSupports(SupportSet):
         return self.lcf.cable
 
     @property
+    def in_words(self) -> str:
+        """Formulation, robots, and whether a smaller set is excluded."""
+        asked = f"{self.requirements.formulation}, "
+        if not self.found:
+            return f"{asked}cut {self.cable.cut}, no set found: {self.solution.status}"
+        return f"{asked}{super().in_words}, {self.solution.status}"
+
+    @property
     def is_proven(self) -> bool:
         """Whether the set is open by the definition and no smaller one is.
 
@@ -102,6 +111,16 @@ class MinimalSupports(SupportSet):
         return self._examine(self.lcf.supports)
 
     @property
+    def disjoint_loops(self) -> tuple[int, ...]:
+        """Where every loop must hold a support: as many loops as possible of which no two have a
+        turning point in common, as indices into the cable's crossings. Each needs its own.
+        """
+        asked = self.requirements
+        if asked.with_loops or asked.formulation == LOOPS.name:
+            return disjoint_loops(self.cable)
+        return ()
+
+    @property
     def smallest_opening(self) -> float | None:
         """Smallest distance of a threading point from a span [grid steps]; None without any."""
         squared = self.report.smallest_opening_squared
@@ -110,7 +129,7 @@ class MinimalSupports(SupportSet):
     def _examine(self, supports: tuple[int, ...]) -> OpeningReport:
         cable, asked = self.cable, self.requirements
         openness = asked.openness if asked.max_robots is None else Fraction(1, 10**6)
-        check = find_formulation(asked.formulation).check
+        check = find_formulation(asked.formulation).checker(with_loops=asked.with_loops)
         return check(cable.path, cable.diagram.size, supports, openness, asked.threading)
 
 
@@ -132,7 +151,9 @@ def minimal_supports(
     requirements : Requirements, optional
         By default formulation `opening` with r = 0.5.
     solver : str
-        "cp-sat", "highs", "scip", "maxsat" or "exhaustive".
+        "cp-sat", "highs", "scip", "maxsat" or "exhaustive". Where the program gives its smallest
+        set without a solver (`loops`, if the team asks for nothing else), the default leaves it to
+        it.
     limits : Limits, optional
         Time, gap, threads, seed; the time is shared by all solves of this call. It is not looked at
         while the program is compiled.
@@ -175,9 +196,22 @@ def minimal_supports(
             result = _widest(program, seeded, asked, backend, deadline)
         else:
             instance = program.instance(float(asked.openness**2))
-            solution = _solve(instance, backend, deadline, better_than)
-            result = _result(seeded, asked, program, instance, solution, solution.chosen)
-            if canonical and result.found:
+            known = at_once(program) if solver == DEFAULT else None
+            if known is not None:
+                known = replace(known, threads=limits.threads, seed=limits.seed)
+                solution = _if_better(known, better_than)
+            else:
+                solution = _solve(instance, backend, deadline, better_than)
+            result = _result(
+                seeded,
+                asked,
+                program,
+                instance,
+                solution,
+                solution.chosen,
+                canonical=known is not None,
+            )
+            if canonical and result.found and known is None:
                 result = canonical_supports(result, solver=solver, limits=deadline.left())
         if explain and result.solution.status is Status.INFEASIBLE:
             groups, sure = conflict(result.instance, backend, deadline.left())
@@ -290,6 +324,13 @@ def _at_hand(solution: Solution, instance: Instance) -> Solution:
                 objective=len(chosen),
             )
     return solution
+
+
+def _if_better(known: Solution, better_than: int | None) -> Solution:
+    """A smallest set that is known, if it has fewer than `better_than` robots."""
+    if better_than is None or known.bound is None or known.bound < better_than:
+        return known
+    return replace(known, status=Status.INFEASIBLE, chosen=None, objective=None)
 
 
 def _solve(

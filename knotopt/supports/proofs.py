@@ -11,7 +11,7 @@ from formulations.canonical import Program
 from formulations.cnf import Clause, at_most, clauses
 from formulations.proof import Refutation, refute, refute_lazily
 from formulations.span import Span, SpanProgram
-from formulations.team import not_consecutive
+from formulations.team import not_consecutive, stretch_literals
 from knotopt.errors import CertificateError
 from knotopt.supports.formulation import Claim
 from knotopt.verify.proofs import MAX_COUNT
@@ -63,7 +63,8 @@ def by_refutation_of_spans(claim: Claim[SpanProgram]) -> dict[str, Any]:
         spans.update(found)
         return list(found)
 
-    refuted = refute_lazily([(1,), (points,), *_counting(claim)], points, violated)
+    loops = map(stretch_literals, claim.program.team.stretches)
+    refuted = refute_lazily([(1,), (points,), *loops, *_counting(claim)], points, violated)
     content = _content(claim, refuted)
     excused = [spans.get(clause, ()) for clause in content["clauses"]]
     return {"clauses": content["clauses"], "spans": excused, "steps": content["steps"]}

@@ -6,6 +6,7 @@ from typing import Any
 
 from knotopt.errors import RequirementError
 from knotopt.supports.formulation import Formulation
+from knotopt.supports.loops import LOOPS
 from knotopt.supports.opening import OPENING
 from knotopt.supports.span import SPAN
 
@@ -14,6 +15,7 @@ FORMULATIONS: dict[str, Formulation[Any]] = {
     for each in (
         OPENING,
         SPAN,
+        LOOPS,
     )
 }
 

@@ -1,4 +1,4 @@
-"""The smallest set over all cuts of a diagram, and over diagrams of the same knot.
+"""The smallest set over all cuts of a diagram.
 
 A bound found on one cable serves all: a cable whose lower bound reaches the best set so far is
 skipped, and the others are only asked for a smaller set.
@@ -7,7 +7,6 @@ skipped, and the others are only asked for a smaller set.
 from __future__ import annotations
 
 import logging
-import random
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
@@ -17,8 +16,8 @@ from formulations.timing import Deadline
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import Cut, crossing_free_cuts
 from knotopt.diagram.grid import GridDiagram
-from knotopt.diagram.moves import commute_columns, commute_rows, translate
-from knotopt.errors import MoveError, RequirementError
+from knotopt.errors import RequirementError
+from knotopt.showing import ShownShort, plural
 from knotopt.supports.minimal import MinimalSupports, canonical_supports, minimal_supports
 from knotopt.supports.requirements import Requirements
 
@@ -46,8 +45,8 @@ class CutOutcome:
     status: Status
 
 
-@dataclass(frozen=True)
-class CutSearch:
+@dataclass(frozen=True, repr=False)
+class CutSearch(ShownShort):
     """The best cut of a diagram.
 
     Attributes
@@ -58,11 +57,20 @@ class CutSearch:
         One for every cut, in order.
     interrupted : bool
         Whether Ctrl-C ended the search.
+    cut_off : int or None
+        Sets that failed a further test, each cut off with others by a row of its own. None where
+        there was no such test.
     """
 
     best: MinimalSupports
     outcomes: tuple[CutOutcome, ...]
     interrupted: bool = False
+    cut_off: int | None = None
+
+    @property
+    def in_words(self) -> str:
+        """The best set, and over how many cuts."""
+        return f"best of {plural(len(self.outcomes), 'cut')}: {self.best.in_words}"
 
     @property
     def status(self) -> Status:
@@ -91,23 +99,6 @@ class CutSearch:
         if self.best.requirements.max_robots is not None:
             return all(outcome.status is Status.OPTIMAL for outcome in left)
         return all((outcome.bound or 0) >= self.best.robots for outcome in left)
-
-
-@dataclass(frozen=True)
-class DiagramSearch:
-    """The best diagram found among translations and commutations of a diagram.
-
-    Attributes
-    ----------
-    best : CutSearch
-    tried : int
-        Diagrams searched, the given one included.
-    seed : int
-    """
-
-    best: CutSearch
-    tried: int
-    seed: int
 
 
 def best_supports(
@@ -218,78 +209,6 @@ def supports_by_cut(
         yield result
         if result.solution.interrupted:
             return
-
-
-def best_diagram(
-    diagram: GridDiagram,
-    requirements: Requirements | None = None,
-    *,
-    budget: int,
-    seed: int = 0,
-    solver: str = DEFAULT,
-    limits: Limits | None = None,
-    progress: Callable[[int], None] | None = None,
-) -> DiagramSearch:
-    """The best set found over diagrams that translations and commutations give.
-
-    A random walk from the given diagram; grids stay of the same size. The number found is an upper
-    bound for the knot: other diagrams may do better. Ctrl-C ends the walk with what is known.
-
-    Parameters
-    ----------
-    budget : int
-        How many different diagrams to search, the given one included.
-    seed : int
-    progress : callable, optional
-        Told after each diagram how many are done.
-    """
-    deadline = Deadline(limits or Limits())
-    best = search = best_supports(diagram, requirements, solver=solver, limits=deadline.left())
-    tried = 0
-    for candidate in _walk(diagram, budget, seed):
-        if tried > 0:
-            incumbent = best.best.robots if best.best.found else None
-            left = deadline.left()
-            try:
-                search = best_supports(
-                    candidate, requirements, solver=solver, limits=left, better_than=incumbent
-                )
-            except KeyboardInterrupt:  # with nothing known of this diagram
-                break
-            if is_better(search.best, best.best):
-                best = search
-        tried += 1
-        if progress is not None:
-            progress(tried)
-        if search.interrupted or deadline.passed:
-            break
-    return DiagramSearch(best, tried, seed)
-
-
-def _walk(diagram: GridDiagram, budget: int, seed: int) -> Iterator[GridDiagram]:
-    """Different diagrams met on a random walk, the given one first."""
-    random_source = random.Random(seed)
-    size = diagram.size
-    seen = {diagram}
-    yield diagram
-    stuck = 0
-    while len(seen) < budget and stuck < 100 * budget:
-        line = random_source.randint(1, size)
-        kind = random_source.random()
-        stuck += 1
-        try:
-            if kind < 0.4:
-                diagram = commute_columns(diagram, line)
-            elif kind < 0.8:
-                diagram = commute_rows(diagram, line)
-            else:
-                shift = random_source.randrange(size), random_source.randrange(size)
-                diagram = translate(diagram, *shift)
-        except MoveError:
-            continue
-        if diagram not in seen:
-            seen.add(diagram)
-            yield diagram
 
 
 def _outcome(result: MinimalSupports, incumbent: int | None) -> CutOutcome:

@@ -22,7 +22,7 @@ from knotopt.supports.support_set import SupportSet
 CHOICES = ("milp", "lcf", "all")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class GivenSupports(SupportSet):
     """Supports that nobody computed here: from a file, or all turning points."""
 

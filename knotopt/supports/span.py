@@ -306,4 +306,5 @@ SPAN = Formulation(
     proofs={"refutation": by_refutation_of_spans, "count": by_counting},
     threads_once=True,
     is_taut=True,
+    with_loops=True,
 )

@@ -6,9 +6,10 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable
 
 from knotopt.cable.cable import Cable
+from knotopt.showing import ShownShort, plural
 
 
-class SupportSet(ABC):
+class SupportSet(ShownShort, ABC):
     """What every method's result says of its supports."""
 
     supports: tuple[int, ...]
@@ -18,6 +19,11 @@ class SupportSet(ABC):
     @abstractmethod
     def cable(self) -> Cable:
         """The cable the supports belong to."""
+
+    @property
+    def in_words(self) -> str:
+        """How many robots, on which cut."""
+        return f"cut {self.cable.cut}, {plural(self.robots, 'robot')} instead of {self.baseline}"
 
     @property
     def robots(self) -> int:

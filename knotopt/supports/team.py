@@ -7,6 +7,7 @@ import numpy as np
 from formulations.team import ReachTarget, Team
 from knotopt.arrays import BoolArray, FloatArray
 from knotopt.cable.cable import Cable
+from knotopt.supports.loops import loop_stretches
 from knotopt.supports.regions import Regions
 from knotopt.supports.registry import find_formulation
 from knotopt.supports.requirements import Requirements
@@ -32,12 +33,14 @@ def compile_team(regions: Regions, requirements: Requirements) -> Team:
         return tuple((u, w) for u, w in (np.argwhere(np.triu(chosen, k=1)) + 1).tolist())
 
     return Team(
+        stretches=loop_stretches(cable) if requirements.with_loops else (),
         too_close=pairs(distance < separation - SLACK),
         too_long=pairs(distance > payload + SLACK),
         reach=tuple(_reach(regions, requirements)) if requirements.reach is not None else (),
         forbidden=requirements.forbidden,
         forced=requirements.forced,
         excluded=requirements.excluded,
+        clauses=requirements.clauses,
         at_most=requirements.max_robots,
     )
 

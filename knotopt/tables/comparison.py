@@ -63,7 +63,9 @@ NOTE = """\
 Robots, the two lifting ones included. Each method has its own best of the cuts named (ties: the \
 first). LCF is "open" if its set keeps every active region open by the definition of `opening` \
 with the same r and threading by turning points, as for `opening`; for `span` strands thread that \
-change between over and under. Proven: neither has a smaller set on any of the cuts."""
+change between over and under. "Safe" is `span` with a support on every loop of the cable, too; \
+"loops" asks for that alone: the fewest robots that lay this diagram with straight spans, no bound \
+for flights of the knot. Proven: none of the four has a smaller set on any of the cuts."""
 
 
 def compare(
@@ -146,7 +148,7 @@ def compare(
     return {column: row[column] for column in names(COLUMNS)} | {"paths": path_rows(sets)}
 
 
-def tabulated(rows: Sequence[Row]) -> Tabulation:
+def comparison_table(rows: Sequence[Row]) -> Tabulation:
     """The rows for people, with means and the paths' medians, and all of their cells for programs.
 
     A path's columns are called `lcf_relaxation_length` and so on.

@@ -95,10 +95,13 @@ class Heuristic(Method):
 
 @dataclass(frozen=True)
 class SmallestSet(Method):
-    """The smallest set by a formulation, by its name, with what threads its regions."""
+    """The smallest set by a formulation, by its name, with what threads its regions, and whether
+    every loop holds a support, too.
+    """
 
     formulation: str = "opening"
     threading: Threading = Threading.TURNING_POINT
+    with_loops: bool = False
     known = (
         Column("robots", int, "robots of a smallest open set, {}", True),
         Column("cut", str, "first cut where a smallest open set has the fewest robots, {}"),
@@ -121,11 +124,11 @@ class SmallestSet(Method):
 
     def requirements(self, openness: Fraction | float | None = None) -> Requirements:
         """What is asked of a set, with r = `openness` [grid steps]."""
-        return Requirements(self.formulation, openness, self.threading)
+        return Requirements(self.formulation, openness, self.threading, with_loops=self.with_loops)
 
     def is_met(self, cable: Cable, supports: Supports, openness: Fraction) -> bool:
         """Whether the independent checker finds a set open by the definition, r = `openness`."""
-        check = find_formulation(self.formulation).check
+        check = find_formulation(self.formulation).checker(with_loops=self.with_loops)
         return check(cable.path, cable.diagram.size, supports, openness, self.threading).is_open
 
 
@@ -136,11 +139,18 @@ HEURISTICS = (LCF, LAYERED)
 _OVER_UNDER = Threading.OVER_UNDER
 OPENING = SmallestSet("opening", "opening", "turning-point")
 OVER_UNDER = SmallestSet("over_under", "over-under", "over-under", threading=_OVER_UNDER)
-SPAN = SmallestSet("span", "span", "`span`", "span", "span", _OVER_UNDER)
+SPAN = SmallestSet("span", "span", "`span` without loops", "span", "span", _OVER_UNDER)
+SAFE = SmallestSet(
+    "safe", "safe", "`span` with loops", "span", "span", _OVER_UNDER, with_loops=True
+)
+LOOPS = SmallestSet("loops", "loops", "`loops`", formulation="loops")
 
-PROGRAMS = (OPENING, OVER_UNDER, SPAN)
+PROGRAMS = (OPENING, OVER_UNDER, SPAN, SAFE, LOOPS)
 """The smallest sets of an atlas, in the order of their columns."""
 USUAL_PROGRAMS = tuple(method for method in PROGRAMS if method.is_usual)
-"""One a formulation: those of Table I and of `compare`."""
+"""Each formulation in its own mode of threading, `span` without loops and with them (the safe set):
+those of Table I and of `compare`."""
+TRIED_PROGRAMS = (OPENING, SPAN)
+"""Those that an atlas, where asked, also gives to several solvers, and whose sets it flies."""
 JUDGES = {OPENING: "", OVER_UNDER: "_over_under"}
 """By which a heuristic's set is judged, and how its columns then end."""

@@ -34,9 +34,11 @@ robots before and in robots after reduction. Table I does not single \
 out one reading of LCF. When the reading used here was fixed, 5,508 sets of rules were tried: 176 \
 of them give 5, 5, 5 on 3_1, 4_1 and 5_1, and each of those 176 gives all six rows on some grid. \
 LCF gives no guarantee: its set need neither keep every threaded region open nor be the smallest \
-that does; "open" says whether it does (formulation opening, r = 0.5). Under opening and span \
-stand the smallest numbers of robots on LCF's cut and, in brackets, on the best of all \
-crossing-free cuts; they are proven if no smaller set exists under that definition."""
+that does; "open" says whether it does (formulation opening, r = 0.5). Under opening, span, safe \
+(span with a support on every loop of the cable, too) and loops (only that) stand the smallest \
+numbers of robots on LCF's cut and, in brackets, on the best of all crossing-free cuts; they are \
+proven if no smaller set exists under that definition. Loops is the fewest robots that lay this \
+diagram with straight spans, no bound for flights of the knot."""
 """What the table does and does not show; printed wherever the table is."""
 
 COLUMNS = (
@@ -78,7 +80,7 @@ class Table1Result:
         Of `COLUMNS`.
     lcf : LcfResult
     smallest : tuple of MinimalSupports
-        One a formulation.
+        By `USUAL_PROGRAMS`, in that order.
     relaxed, optimised : PathResult
         The paths of LCF's set.
     """

@@ -12,6 +12,7 @@ from knotopt.files import write_atomically
 from knotopt.path.relaxation import relax
 from knotopt.plot.figures import before_after_figure, minimal_figure, save_figure
 from knotopt.plot.path_figures import braid_figure, path_figure, relaxation_figure
+from knotopt.tables.methods import SPAN, USUAL_PROGRAMS
 from knotopt.tables.table1 import Table1Result, tabulated, tabulated_paths
 
 
@@ -54,9 +55,11 @@ def _figures(result: Table1Result) -> dict[str, Figure]:
     row, knot = result.cells["row"], result.cells["knot"]
     name = f"table1_{row.replace(' ', '_')}_{knot}"
     title = f"Table I, row {row}: {knot}"
+    of_methods = zip(USUAL_PROGRAMS, result.smallest, strict=True)
+    shown = [smallest for method, smallest in of_methods if method is not SPAN]
     return {
         name: before_after_figure(result.lcf, f"{title}, cut {result.cells['cut']}"),
-        f"{name}_minimal": minimal_figure(result.smallest, title),
+        f"{name}_minimal": minimal_figure(shown, title),
         f"{name}_fig5": relaxation_figure(
             relax(result.lcf.cable, result.lcf.supports),
             result.relaxed,

@@ -5,7 +5,8 @@ no smaller set exists: either a refutation of "at most k - 1 robots" or the word
 every smaller set is examined. The check starts from the marks and the definitions.
 
 `proofs` says what the variables of a refutation are. For `span`, "spans" lists with each clause the
-spans that it excludes together.
+spans that it excludes together. For `loops`, disjoint loops need neither (`loops`). Where "with" is
+"loops", the set pierces every loop of the cable as well, and the bound is of such sets.
 """
 
 from __future__ import annotations
@@ -35,6 +36,8 @@ class CheckedCertificate:
     knot : str
         As the certificate names it; what was checked is the diagram.
     formulation, threading : str
+    with_loops : bool
+        Whether every loop holds a support, too.
     openness : Fraction
     robots : int
     cut : str
@@ -50,6 +53,7 @@ class CheckedCertificate:
     knot: str
     formulation: str
     threading: str
+    with_loops: bool
     openness: Fraction
     robots: int
     cut: str
@@ -77,6 +81,9 @@ def check_certificate(text: str) -> CheckedCertificate:
     definition = DEFINITIONS.get(formulation)
     if definition is None or mode not in definition.modes:
         raise CertificateError(f"no formulation {formulation!r} with threading {mode!r} is known")
+    with_loops = "with" in certificate
+    if with_loops and field(certificate, "with", str) != "loops":
+        raise CertificateError("with: only loops can be added to a formulation")
     openness = _fraction(field(certificate, "openness", str))
     robots, cut = field(certificate, "robots", int), field(certificate, "cut", str)
     supports = [integer(k, "supports") for k in field(certificate, "supports", list)]
@@ -86,7 +93,8 @@ def check_certificate(text: str) -> CheckedCertificate:
     if len(supports) + 2 != robots:
         raise CertificateError(f"{len(supports)} supports and 2 lifting robots are not {robots}")
     size = len(marks) // 2
-    report = definition.check(path, size, supports, openness, mode)
+    check = definition.checker(with_loops=with_loops)
+    report = check(path, size, supports, openness, mode)
     if not report.is_open:
         closure = report.closures[0]
         raise CertificateError(f"the set is not open: {closure.region}: {closure.reason}")
@@ -96,7 +104,7 @@ def check_certificate(text: str) -> CheckedCertificate:
         if not isinstance(bound, dict):
             raise CertificateError("bounds: an entry is no object")
         covered.append(field(bound, "cut", str))
-        claim = Claim(tuple(_path(marks, covered[-1])), size, openness, mode, robots)
+        claim = Claim(tuple(_path(marks, covered[-1])), size, openness, mode, robots, with_loops)
         try:
             _check_bound(bound, definition, claim)
         except CertificateError as error:
@@ -112,7 +120,16 @@ def check_certificate(text: str) -> CheckedCertificate:
         )
     knot, count = field(certificate, "knot", str), len(covered)
     return CheckedCertificate(
-        knot, formulation, mode, openness, robots, cut, count, every_cut, tuple(marks)
+        knot,
+        formulation,
+        mode,
+        with_loops,
+        openness,
+        robots,
+        cut,
+        count,
+        every_cut,
+        tuple(marks),
     )
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from knotopt.verify.piercing import bare_loops
 from knotopt.verify.regions import Cell, DefinedRegion, define_regions
 
 MODES = ("turning-point", "over-under")  # which turning points inside a region thread it
@@ -49,6 +50,24 @@ Checker = Callable[[Sequence[Cell], int, Collection[int], Fraction, str], Openin
 """Examines a set by a definition; parameters as of `knotopt.verify.opening.check_opening`."""
 
 
+def and_loops(check: Checker) -> Checker:
+    """The checker that also wants a support on every loop of the cable."""
+
+    def checker(
+        path: Sequence[Cell], size: int, supports: Collection[int], openness: Fraction, mode: str
+    ) -> OpeningReport:
+        report = check(path, size, supports, openness, mode)
+        bare = bare_loops(path, supports)
+        closures = (Closure(f"loop [{c},{r}]", "no support on it") for _, (c, r) in bare)
+        return OpeningReport(
+            (*closures, *report.closures),
+            tuple(sorted({number for number, _ in bare} | {*report.closed_regions})),
+            report.smallest_opening_squared,
+        )
+
+    return checker
+
+
 @dataclass(frozen=True)
 class Claim:
     """On one cut, `robots` - 1 robots are too few.
@@ -63,6 +82,8 @@ class Claim:
     mode : str
         One of `MODES`.
     robots : int
+    with_loops : bool
+        Whether a support is wanted on every loop, too.
     """
 
     path: tuple[Cell, ...]
@@ -70,6 +91,7 @@ class Claim:
     openness: Fraction
     mode: str
     robots: int
+    with_loops: bool = False
 
     @property
     def regions(self) -> tuple[DefinedRegion, ...]:
@@ -100,3 +122,7 @@ class Definition:
     check: Checker
     modes: tuple[str, ...]
     proofs: Mapping[str, Proof]
+
+    def checker(self, *, with_loops: bool) -> Checker:
+        """Examines a set by the definition, and by that of `loops` too, if asked."""
+        return and_loops(self.check) if with_loops else self.check

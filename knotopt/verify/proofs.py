@@ -13,9 +13,10 @@ from math import comb
 from typing import Any
 
 from knotopt.errors import CertificateError
-from knotopt.verify.definition import Checker, Claim, Proof
+from knotopt.verify.definition import Checker, Claim, Proof, and_loops
 from knotopt.verify.fields import field, integers
 from knotopt.verify.lrat import RefutationError, check_refutation
+from knotopt.verify.piercing import loop_clauses
 
 MAX_COUNT = 20_000  # sets that a proof by counting may examine
 
@@ -30,9 +31,10 @@ def by_counting(check: Checker) -> Proof:
         smaller = sum(comb(points - 2, size) for size in sizes)
         if smaller > MAX_COUNT:
             raise CertificateError(f"{smaller} smaller sets are too many to examine")
+        examine = and_loops(check) if claim.with_loops else check
         for size in sizes:
             for supports in combinations(range(2, points), size):
-                if check(claim.path, claim.size, supports, claim.openness, claim.mode).is_open:
+                if examine(claim.path, claim.size, supports, claim.openness, claim.mode).is_open:
                     raise CertificateError(f"the smaller set {supports} is open")
 
     return proof
@@ -52,6 +54,8 @@ def by_refutation(follow: Callable[[Claim, Mapping[str, Any]], Clauses]) -> Proo
         points = len(claim.path)
         allowed = {frozenset([1]), frozenset([points]), *_counting(points, claim.robots - 1)}
         allowed |= follow(claim, content)
+        if claim.with_loops:
+            allowed |= loop_clauses(claim.path)
         for number, clause in enumerate(given, 1):
             if frozenset(clause) not in allowed:
                 raise CertificateError(f"clause {number} does not follow from the diagram")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from knotopt.verify.definition import Definition
+from knotopt.verify.loops import LOOPS
 from knotopt.verify.opening import OPENING
 from knotopt.verify.span import SPAN
 
@@ -11,5 +12,6 @@ DEFINITIONS: dict[str, Definition] = {
     for each in (
         OPENING,
         SPAN,
+        LOOPS,
     )
 }

@@ -26,6 +26,7 @@ from knotopt.reading.knot import read_knot
 from knotopt.supports.registry import FORMULATIONS
 from knotopt.supports.search import best_supports
 from knotopt.supports.span import SPAN
+from knotopt.tables import methods
 from knotopt.tables.comparison import compare
 from tests.helpers.small_atlas import LIST, SETTINGS, Replay, contents
 
@@ -60,9 +61,10 @@ def test_both_threading_modes_and_span(measured: dict[int, KnotResult]) -> None:
         cut = [Cable(knot.diagram, row["cut"]).cut]
         other = best_supports(knot.diagram, _asked("opening", "over-under"), cuts=cut)
         assert row["over_under_robots"] == other.best.robots
-        assert (
-            row["span_robots"] == best_supports(knot.diagram, _asked("span"), cuts=cut).best.robots
-        )
+        for method in (methods.SPAN, methods.SAFE, methods.LOOPS):
+            smallest = best_supports(knot.diagram, method.requirements(), cuts=cut).best
+            assert row[f"{method.key}_robots"] == smallest.robots
+        assert row["safe_robots"] >= max(row["span_robots"], row["loops_robots"])
         assert row["over_under_robots"] <= (row["opening_robots"] or 0)
         assert row["span_status"] == row["opening_status"] == "optimal"
         assert row["checked"]
@@ -77,7 +79,7 @@ def _asked(formulation: str, threading: str | None = None) -> Any:
 
 
 def _no_span() -> dict[str, None]:
-    return {name: None for name in names(FILES[File.ATLAS]) if name.startswith("span_")}
+    return {name: None for name in names(FILES[File.ATLAS]) if name.startswith(("span_", "safe_"))}
 
 
 def test_lcf_below_means_that_no_open_set_is_as_small(measured: dict[int, KnotResult]) -> None:

@@ -135,7 +135,7 @@ def test_an_interrupt_leaves_nothing(cli: Cli, tmp_path: Path, when: str) -> Non
         (("--runs", "2"), 2, "--runs: goes with --sim"),
         (("--tighten", "5"), 2, "--tighten: goes with --sim"),
         (("--sim", "--tighten", "1.2"), 1, "the knot's ends are 1.50 m apart when it is laid"),
-        (("--sim", "--tighten", "nan"), 1, "pulled tight they are farther apart, not nan m"),
+        (("--sim", "--tighten", "nan"), 2, "--tighten: is a distance in metres, not nan"),
         (("--sim", "--noise", "nan"), 1, "noise is a number from 0 up, not nan"),
         (("--sim", "--gust", "-1"), 1, "gust is a number from 0 up, not -1"),
         (("--sim", "--wind", "1"), 2, "is X,Y in m/s, such as 0.3,0; not '1'"),

@@ -38,7 +38,6 @@ FILLED: tuple[tuple[str, object, str], ...] = (
 """Commands, what their options fill, and which fields: of the same name unless another is given."""
 
 OWN = {
-    ("solve", "--diagrams"): 1,
     ("topology", "--plans"): 10,
     ("prove", "--out"): Path("certificate.jsonl"),
 }

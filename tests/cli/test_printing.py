@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import io
 import re
 import sys
 from collections.abc import Sequence
+from contextlib import redirect_stdout
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from knotopt.cli import printing
 from knotopt.cli.printing import print_table
 
 WORDS = st.lists(st.text("abcdefg", min_size=1, max_size=9), min_size=1, max_size=6).map(" ".join)
@@ -66,3 +69,14 @@ def test_a_wide_row_stands_in_a_column_of_its_own(
 def test_a_pipe_has_a_row_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
     print_table(("what", "n"), [("word " * 100, 1)])
     assert len([line for line in capsys.readouterr().out.split("\n") if line.strip()]) == 3
+
+
+@given(table=tables())
+def test_into_a_pipe_it_is_the_table_that_rich_makes(
+    table: tuple[list[str], list[list[str]]],
+) -> None:
+    columns = [[head, *cells] for head, *cells in zip(table[0], *table[1], strict=True)]
+    rich = io.StringIO()
+    with redirect_stdout(rich):
+        printing._print_grid(columns, 10_000)
+    assert printing._unbroken(columns) + "\n" == rich.getvalue()

@@ -44,10 +44,35 @@ def test_solve_over_cuts_sets_and_diagrams(cli: Cli) -> None:
     assert content["minimal_sets_complete"]
     status, out, _ = cli("solve", "9", "--all", "--count", "2", "--cut", "L+")
     assert "2 smallest sets, and maybe more (--count 2" in out
-    content = cli.json("solve", "7 Var1", "--diagrams", "20", "--seed", "1")
-    assert content["diagrams_tried"] == 20 and content["robots_after"] < 12
-    status, out, _ = cli("solve", "7 Var1", "--diagrams", "20", "--seed", "1")
-    assert "best of 20 found by translations and commutations" in out
+
+
+def test_solve_over_diagrams(cli: Cli) -> None:
+    command = ("solve", "7 Var1", "--diagrams", "--budget", "60_000", "--seed", "1")
+    content = cli.json(*command)
+    assert content["robots_after"] < 12 and content["proven"] and content["checked_open"]
+    assert content["diagrams_tried"] >= 60_000 and content["diagrams_solved"] == 3
+    first = content["front"][0]
+    assert (first["robots"], first["crossings"]) == (3, 7) and len(first["grid"]) == 2 * first[
+        "size"
+    ]
+    status, out, err = cli("solve", "5", "--diagrams", "--formulation", "loops", "--budget", "1")
+    assert (status, err) == (0, "") and "fewest robots that lay a diagram" in out
+    assert "best of 1 solved, from" in out and "cut L+: 3 robots instead of" in out
+
+
+def test_a_search_over_diagrams_is_gone_on_with(cli: Cli, tmp_path: Path) -> None:
+    file = tmp_path / "a.json"
+    command = ("solve", "5", "--diagrams", "--formulation", "span", "--budget")
+    in_parts = [cli.json(*command, budget, "--out", file) for budget in ("40_000", "80_000")]
+    whole = cli.json(*command, "80_000")
+    timed = ("build_seconds", "solve_seconds")
+    assert {**in_parts[1], **dict.fromkeys(timed)} == {**whole, **dict.fromkeys(timed)}
+    assert in_parts[0]["diagrams_solved"] < whole["diagrams_solved"]
+    status, _, err = cli(*command, "1", "--seed", "2", "--out", file)
+    assert status == 1 and "holds another search" in " ".join(err.split())
+    file.write_text("[]")
+    status, _, err = cli(*command, "1", "--out", file)
+    assert status == 1 and "holds no search over diagrams" in " ".join(err.split())
 
 
 def test_solve_with_what_a_team_asks(cli: Cli) -> None:
@@ -84,7 +109,12 @@ def test_solve_with_what_a_team_asks(cli: Cli) -> None:
         (("--plot", "a.gif"), 1, "pictures are written as"),
         (("--cut", "all", "--all"), 2, "is about one cut"),
         (("--cut", "all", "--plot", "a.png"), 2, "is about one cut"),
-        (("--cut", "L+", "--diagrams", "5"), 2, "goes with --cut best"),
+        (("--cut", "L+", "--diagrams"), 2, "goes with --cut best"),
+        (("--budget", "5s"), 2, "goes with --diagrams"),
+        (("--out", "a.json"), 2, "goes with --verify-physics or --diagrams"),
+        (("--diagrams", "--budget", "soon"), 1, "a budget is seconds, such as 5s, or a number"),
+        (("--diagrams", "--budget", "0"), 1, "a budget is a positive number"),
+        (("--diagrams", "--out", "a.txt"), 1, "searches are written as .json"),
         (("--cut", "col2+"), 1, "carries"),
         (("--all", "--solver", "highs"), 1, "cannot list all sets"),
         (("--solver", "exhaustive", "--cut", "X"), 1, "no cut is named 'X'"),
@@ -103,6 +133,8 @@ def test_compare(cli: Cli, tmp_path: Path) -> None:
     rows = cli.json("compare", "3", "5", "8_19")
     assert [row["opening_robots"] for row in rows] == [5, 6, 9]
     assert [row["span_robots"] for row in rows] == [7, 9, 10]
+    assert [row["safe_robots"] for row in rows] == [7, 9, 10]
+    assert [row["loops_robots"] for row in rows] == [3, 3, 4]
     assert [row["lcf_open"] for row in rows] == [False, False, True]
     for suffix in ("csv", "md", "tex"):
         status, out, _ = cli("compare", "3", "5", "--out", tmp_path / f"a.{suffix}")
@@ -123,7 +155,7 @@ def test_compare(cli: Cli, tmp_path: Path) -> None:
     assert "| mean of 2 |" in (tmp_path / "a.md").read_text()
     latex = (tmp_path / "a.tex").read_text()
     assert "\\toprule" in latex and "5\\_1 (Table I, row 5) & 14 & 5 & no &" in latex
-    assert latex.count("&") == 8 * 4 + 9 * 5 and "opening & nlp & 2 of 2 & 2 of 2" in latex
+    assert latex.count("&") == 10 * 4 + 9 * 5 and "opening & nlp & 2 of 2 & 2 of 2" in latex
     assert cli("compare", "3", "--cut", "T-")[0] == 0
     for arguments, code, message in (
         ((), 2, "give knots, or --catalogue"),

@@ -48,6 +48,10 @@ def test_the_table_and_the_note_are_printed(printed: Cli) -> None:
             f"({row['opening_robots']})",
             str(row["span_same_cut"]),
             f"({row['span_robots']})",
+            str(row["safe_same_cut"]),
+            f"({row['safe_robots']})",
+            str(row["loops_same_cut"]),
+            f"({row['loops_robots']})",
             "yes",
         )
         assert list(cells) in [line.split() for line in out.splitlines()]

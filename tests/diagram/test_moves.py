@@ -162,6 +162,17 @@ def test_simplify_at_the_arc_index_returns_the_diagram_itself() -> None:
     assert simplify(T34, patience=2000) is T34
 
 
+def test_simplify_stabilises_where_commutations_lead_no_further() -> None:
+    """13n_1922, whose arc index is 12, drawn from its PD code and walked down."""
+    stuck = GridDiagram(
+        (5, 1, 9, 10, 7, 11, 12, 3, 8, 2, 13, 6, 4), (11, 7, 4, 8, 12, 13, 6, 9, 1, 5, 3, 2, 10)
+    )
+    assert simplify(stuck, rounds=0) is stuck
+    assert simplify(stuck, smallest=13) is stuck
+    assert simplify(stuck).size == 12
+    assert invariants(simplify(stuck)) == invariants(stuck)
+
+
 @pytest.mark.parametrize(
     ("move", "message"),
     [

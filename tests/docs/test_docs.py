@@ -103,10 +103,10 @@ def _scratch(folder: Path, page: Path) -> dict[str, str]:
         (
             "formulation",
             [
-                "formulations/pinned.py",
-                "knotopt/supports/pinned.py",
-                "knotopt/verify/pinned.py",
-                "tests/supports/test_pinned.py",
+                "formulations/held.py",
+                "knotopt/supports/held.py",
+                "knotopt/verify/held.py",
+                "tests/supports/test_held.py",
                 "tests/supports/test_formulations.py",
                 "tests/test_architecture.py::test_every_import_is_in_the_table",
             ],

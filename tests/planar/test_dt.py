@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-
 import pytest
 import spherogram
 from hypothesis import given
@@ -12,7 +10,6 @@ from knotopt.errors import DiagramError
 from knotopt.planar.dt import dt_code, dt_flips, dt_letters, dt_numbers, from_dt
 from knotopt.planar.planar_diagram import PlanarDiagram
 from knotopt.planar.signature import signature
-from tests.helpers.knotinfo_codes import knotinfo_codes
 from tests.helpers.random_diagrams import random_diagrams
 from tests.helpers.strategies import planar_diagrams
 
@@ -48,12 +45,6 @@ def test_spherogram_reads_codes_and_flips_as_we_do() -> None:
         # Of a prime diagram it chooses the same mirror image, by the first crossing.
         chosen = spherogram.Link(f"DT: [{code}]")
         assert sorted(c.sign for c in chosen.crossings) == sorted(from_dt(code).signs)
-
-
-def test_knotinfos_codes_are_its_knots_up_to_mirror() -> None:
-    for codes in knotinfo_codes():
-        found = from_dt([int(number) for number in re.findall(r"-?\d+", codes.dt)])
-        assert abs(signature(found)) == abs(codes.signature), codes.name
 
 
 def test_letters_are_spherograms() -> None:

@@ -11,7 +11,6 @@ from knotopt.planar.embedding import handedness, parts
 from knotopt.planar.gauss import from_gauss, gauss_code, gauss_letters, oriented_gauss_code
 from knotopt.planar.planar_diagram import PlanarDiagram
 from knotopt.planar.signature import signature
-from tests.helpers.knotinfo_codes import knotinfo_codes
 from tests.helpers.random_diagrams import random_diagrams
 from tests.helpers.strategies import planar_diagrams
 
@@ -49,12 +48,6 @@ def test_random_diagrams_come_back() -> None:
         found = from_gauss(gauss_code(diagram))
         assert found in (ordered, ordered.mirrored)
         assert found.signs[0] == 1
-
-
-def test_knotinfos_codes_are_its_knots_up_to_mirror() -> None:
-    for codes in knotinfo_codes():
-        found = from_gauss([int(entry) for entry in codes.gauss.strip("[]").split(",")])
-        assert abs(signature(found)) == abs(codes.signature), codes.name
 
 
 def test_a_code_may_be_read_from_behind() -> None:

@@ -9,33 +9,26 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from knotopt.cable.cable import Cable
-from knotopt.cable.notation import pd_code
 from knotopt.catalogue.knotinfo import knotinfo_knots
 from knotopt.catalogue.knots import shipped_knots
 from knotopt.diagram.families import random_knot, torus_knot
-from knotopt.diagram.grid import GridDiagram
 from knotopt.diagram.moves import Symmetry, transform
-from knotopt.planar.faces import faces
+from knotopt.planar.from_grid import planar_diagram
 from knotopt.planar.planar_diagram import PlanarDiagram
 from knotopt.planar.signature import signature
 from tests.helpers.snappy_invariants import link_of, seifert_invariants
 
 
-def planar(diagram: GridDiagram) -> PlanarDiagram:
-    code = pd_code(Cable(diagram, "L+"))
-    return PlanarDiagram(tuple((i - 1, j - 1, k - 1, m - 1) for i, j, k, m in code))
-
-
 def test_shipped_knots_and_their_mirror_images() -> None:
     for knot in shipped_knots().values():
-        assert signature(planar(knot.diagram)) == knot.signature, knot.name
+        assert signature(planar_diagram(knot.diagram)) == knot.signature, knot.name
         mirror = transform(knot.diagram, Symmetry.FLIP_ROWS)
-        assert signature(planar(mirror)) == -knot.signature, knot.name
+        assert signature(planar_diagram(mirror)) == -knot.signature, knot.name
 
 
 def test_grids_of_knotinfo_up_to_13_crossings() -> None:
     for knot in [*knotinfo_knots().values()][249::13]:
-        assert signature(planar(knot.diagram)) == knot.signature, knot.name
+        assert signature(planar_diagram(knot.diagram)) == knot.signature, knot.name
 
 
 @pytest.mark.slow
@@ -52,7 +45,7 @@ def test_codes_of_knotinfo() -> None:
 @pytest.mark.parametrize(("p", "q", "expected"), [(2, 9, -8), (3, 4, -6), (3, 7, -8), (5, -6, 16)])
 def test_torus_knots(p: int, q: int, expected: int) -> None:
     """By the count of Gordon, Litherland and Murasugi (doi:10.4153/CJM-1981-030-2)."""
-    assert signature(planar(torus_knot(p, q))) == expected
+    assert signature(planar_diagram(torus_knot(p, q))) == expected
 
 
 @settings(max_examples=40)
@@ -60,25 +53,10 @@ def test_torus_knots(p: int, q: int, expected: int) -> None:
 def test_random_knots_as_by_the_seifert_matrix(size: int, seed: int) -> None:
     cable = Cable(random_knot(size, seed), "L+")
     _, seifert = seifert_invariants(link_of(cable)) if len(cable.crossings) else ((1,), 0)
-    assert signature(planar(random_knot(size, seed))) == -seifert
+    assert signature(planar_diagram(random_knot(size, seed))) == -seifert
 
 
 def test_no_crossing_and_one() -> None:
     assert signature(PlanarDiagram(())) == 0
     for kink in ((0, 0, 1, 1), (1, 0, 0, 1), (0, 1, 1, 0)):
         assert signature(PlanarDiagram((kink,))) == 0
-
-
-@given(st.integers(4, 16), st.integers(0, 10**6))
-def test_faces_are_two_more_than_crossings_and_two_coloured(size: int, seed: int) -> None:
-    diagram = planar(random_knot(size, seed))
-    if not diagram.crossings:
-        return
-    found = faces(diagram)
-    corners = [
-        (face, (corner % 2 == 0) == even)
-        for around, even in zip(found.of_corner, found.even_is_white, strict=True)
-        for corner, face in enumerate(around)
-    ]
-    assert len({face for face, _ in corners}) == len(diagram.crossings) + 2
-    assert len({*corners}) == len(diagram.crossings) + 2, "a face of two colours"

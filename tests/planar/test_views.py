@@ -132,7 +132,7 @@ def test_an_open_rope_whose_ends_stay_inside_is_refused() -> None:
     walk /= np.linalg.norm(walk, axis=1)[:, None]  # points on a ball: all of them near its rim
     walk[[0, -1]] *= 0.01
     with pytest.raises(CurveError, match="its two ends lie in one face"):
-        open_view(walk[:120])
+        open_view(walk[:60])
 
 
 DEGENERATE = {

@@ -32,7 +32,7 @@ from tests.helpers.small_flight import flown_set
 TIED = Verdict(Outcome.TIED, "3_1", True, True, "1 - t + t^2")
 LOST = Verdict(Outcome.WRONG_KNOT, "unknot", False, True, "1")
 STUCK = Verdict(Outcome.STUCK, "unknot", False, True, "1")
-SPAN = Requirements("span", 0.25)
+SPAN = Requirements("span", 0.25, with_loops=False)
 KNOT = torus_knot(2, 3)
 
 

@@ -34,7 +34,7 @@ Supports = tuple[int, ...]
 
 def in_order(cable: Cable, asked: Requirements) -> list[Supports]:
     """All sets that are open by the definition: fewest, then most open, then first."""
-    check = DEFINITIONS[asked.formulation].check
+    check = DEFINITIONS[asked.formulation].checker(with_loops=asked.with_loops)
     found = []
     for size in range(len(cable.path) - 1):
         for supports in combinations(range(2, len(cable.path)), size):

@@ -56,6 +56,8 @@ def test_certificates_of_knots(name: str) -> None:
         Requirements(),
         Requirements(openness=0.25, threading="over-under"),
         Requirements("span"),
+        Requirements("span", with_loops=False),
+        Requirements("loops"),
     ):
         verdict = check_certificate(prove(name, diagram, asked))
         assert verdict.robots == best_supports(diagram, asked).best.robots and verdict.every_cut
@@ -224,8 +226,17 @@ def test_the_kept_certificates() -> None:
         assert GridDiagram.from_marks(marks) == shipped_knots()[verdict.knot].diagram
 
 
+def test_the_kept_certificates_of_loops() -> None:
+    """All 249 knots' fewest robots that lay their diagrams."""
+    lines = (ROOT / "paper_results" / "certificates_loops.jsonl").read_text().splitlines()
+    for line, (name, knot) in zip(lines, shipped_knots().items(), strict=True):
+        verdict = check_certificate(line)
+        assert (verdict.knot, verdict.formulation, verdict.every_cut) == (name, "loops", True)
+        assert GridDiagram.from_marks(verdict.grid) == knot.diagram
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("formulation", ["opening", "span"])
+@pytest.mark.parametrize("formulation", ["opening", "span", "loops"])
 def test_the_kept_certificates_of_table1(formulation: str) -> None:
     """They prove what the table says, on its grids."""
     with (ROOT / "paper_results" / "table1.csv").open(newline="") as stream:

@@ -19,7 +19,7 @@ def test_both_lists_have_the_same() -> None:
         assert formulation.name == definition.name == name
         assert sorted(formulation.threading) == sorted(definition.modes)
         assert list(formulation.proofs) == list(definition.proofs)
-        assert formulation.check is definition.check
+        assert formulation.checker(with_loops=False) is definition.check
 
 
 def test_defaults_of_the_class_are_those_of_a_value() -> None:

@@ -13,7 +13,7 @@ from knotopt.document.formats import WRITERS
 from knotopt.reading.knot import read_knot
 from knotopt.supports.lcf import lcf_by_cut
 from knotopt.supports.search import best_supports
-from knotopt.tables.comparison import COLUMNS, HEADS, compare, tabulated
+from knotopt.tables.comparison import COLUMNS, HEADS, compare, comparison_table
 from knotopt.tables.methods import USUAL_PROGRAMS
 
 
@@ -39,15 +39,15 @@ def test_a_row_agrees_with_each_method_alone(rows: list[dict[str, Any]]) -> None
 def test_rows_survive_the_file_of_a_run_that_stopped(rows: list[dict[str, Any]]) -> None:
     again = [json.loads(json.dumps(row)) for row in rows]
     for write in WRITERS.values():
-        assert write(tabulated(again)) == write(tabulated(rows))
+        assert write(comparison_table(again)) == write(comparison_table(rows))
 
 
 def test_what_is_shown(rows: list[dict[str, Any]]) -> None:
-    methods, paths = tabulated(rows).document.tables
+    methods, paths = comparison_table(rows).document.tables
     first, second, means = methods.rows
     assert methods.heads == HEADS
-    assert first == ("3_1 (Table I, row 3)", "10", "5", "no", "5", "no", "5", "7", "yes")
-    assert second == ("8_19", "14", "10", "yes", "8", "no", "9", "10", "yes")
+    assert first == ("3_1 (Table I, row 3)", "10", "5", "no", "5", "no", "5", "7", "7", "3", "yes")
+    assert second == ("8_19", "14", "10", "yes", "8", "no", "9", "10", "10", "4", "yes")
     assert means[:4] == ("mean of 2", "12.00", "7.50", "50 %")
     assert means[-1] == "100 %"
     assert [row[:4] for row in paths.rows] == [
@@ -56,18 +56,18 @@ def test_what_is_shown(rows: list[dict[str, Any]]) -> None:
         for method in ("relaxation", "nlp")
     ]
     assert paths.caption.startswith("Medians over 2 knots. ")
-    assert len(tabulated(rows[:1]).document.tables[0].rows) == 1
+    assert len(comparison_table(rows[:1]).document.tables[0].rows) == 1
 
 
 def test_a_method_without_a_set(rows: list[dict[str, Any]]) -> None:
     none = rows[0] | {"opening_robots": None, "opening_proven": False}
-    methods, _ = tabulated([none, none]).document.tables
-    assert methods.rows[0][-3:] == ("none", "7", "no")
-    assert methods.rows[-1][-3:] == ("–", "7.00", "0 %")
+    methods, _ = comparison_table([none, none]).document.tables
+    assert methods.rows[0][-5:] == ("none", "7", "7", "3", "no")
+    assert methods.rows[-1][-5:] == ("–", "7.00", "7.00", "3.00", "0 %")
 
 
 def test_columns_of_paths(rows: list[dict[str, Any]]) -> None:
-    found = tabulated(rows)
+    found = comparison_table(rows)
     assert len(found.names) == len(COLUMNS) + 4 * 12
     assert found.rows[0]["opening_nlp_length"] == rows[0]["paths"][3]["length"]
     assert "lcf_relaxation_robots" not in found.names

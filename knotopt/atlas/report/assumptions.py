@@ -25,6 +25,11 @@ def assumptions_section(results: Results) -> Section:
         "paper's reading, and what is meant where nothing else is said). Over-under: only where "
         "the strand is over the boundary on one side and under it on the other.",
         _span(results),
+        "`loops` is the smallest number of robots with a support on every loop of the cable: what "
+        "runs between a crossing's two visits. Where a loop has none, both visits lie on one "
+        "straight span, and the crossing is not there once the cable is laid. So it is the fewest "
+        "robots that lay this diagram with straight spans, and no bound for flights of the knot. "
+        "`safe` is `span` with a support on every loop, too.",
         "LCF is the Loop Consistency Filter, a heuristic; layered is its variant that also drops "
         "points inside other regions. Neither promises an open set or a smallest one. The paper "
         "leaves details of LCF open: this is one reading of it.",

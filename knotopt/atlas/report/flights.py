@@ -9,9 +9,9 @@ from knotopt.atlas.report.robots import named_groups
 from knotopt.document.cells import percent
 from knotopt.document.model import NONE, Block, Section, Table, table
 from knotopt.sim.trials import wilson_interval
-from knotopt.tables.methods import LCF, USUAL_PROGRAMS
+from knotopt.tables.methods import LCF, TRIED_PROGRAMS
 
-SMALLEST = {method.key: f"`{method.head}`" for method in USUAL_PROGRAMS}
+SMALLEST = {method.key: f"`{method.head}`" for method in TRIED_PROGRAMS}
 SETS = {LCF.key: LCF.head, **SMALLEST}
 MODELS = {f"{key}_open": words for key, words in SMALLEST.items()}
 OUTCOMES = ("wrong knot", "stuck", "unsound")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pyarrow as pa
@@ -15,7 +16,11 @@ from knotopt.atlas.store import read_manifest, read_rows
 from knotopt.cable.cut import OUTER_CUTS
 from knotopt.document.columns import Row
 from knotopt.errors import OutputError
+from knotopt.frames import data_frame
 from knotopt.tables.methods import HEURISTICS, PROGRAMS, USUAL_PROGRAMS, Supports
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 METHODS = {
     "baseline": "baseline",
@@ -45,6 +50,16 @@ class Results:
     rows: pa.Table
     times: pa.Table
     requested: dict[str, pa.Table] = field(default_factory=dict)
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """The atlas, a row a knot and cut, as a data frame of pandas.
+
+        Raises
+        ------
+        MissingExtraError
+            pandas is not installed.
+        """
+        return data_frame(self.rows.to_pylist(), self.rows.column_names)
 
     def cuts(self, column: str) -> FloatArray:
         """Numbers of a column of the atlas, empty cells as nan, shape (K, 8)."""

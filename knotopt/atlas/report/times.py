@@ -7,13 +7,15 @@ import numpy as np
 from knotopt.atlas.report.results import Results
 from knotopt.document.cells import percent
 from knotopt.document.model import Section, Table, table, table_of
+from knotopt.supports.registry import find_formulation
 from knotopt.tables.comparison import is_done, path_groups, path_medians
 from knotopt.tables.methods import PROGRAMS
 
 STEPS = {
     "lcf_seconds": "LCF and its layered set",
     **{
-        f"{method.key}_seconds": f"`{method.formulation}`, {method.threading}"
+        f"{method.key}_seconds": f"`{method.formulation}`{' with loops' * method.with_loops}"
+        + f", {method.threading}" * find_formulation(method.formulation).has_openness
         for method in PROGRAMS
     },
     "paths_seconds": "four paths and their checks",

@@ -1,0 +1,66 @@
+"""`knotopt identify`, and what `show` says of a knot's name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from knotopt.identify import complements
+from tests.helpers.command_line import Cli
+
+
+def test_names_of_diagrams(cli: Cli) -> None:
+    found = cli.json("identify", "T(3,-4)")
+    assert (found["identified"], found["candidates"]) == ("m8_19", ["m8_19"])
+    assert found["proven"] is True and found["amphicheiral"] is False
+    assert found["signature"] == 6 and found["jones"] == [[-8, -1], [-5, 1], [-3, 1]]
+    status, out, err = cli("identify", "T(3,-4)")
+    assert (status, err) == (0, "")
+    assert "knot           m8_19, by Alexander polynomial, signature, Jones polynomial and" in out
+    assert "Jones          -t^-8 + t^-5 + t^-3" in out
+
+
+def test_a_form_without_chirality_is_up_to_mirror(cli: Cli) -> None:
+    _, out, _ = cli("identify", "DT: [(4, 6, 2)]")
+    assert "3_1 or its mirror image, by" in out
+    _, out, _ = cli("identify", "DT: [(4, 6, 8, 2)]")
+    assert "4_1, by" in out, "4_1 is its own mirror image"
+    assert cli.json("identify", "trefoil")["up_to_mirror_image"] is True
+
+
+def test_the_unknot_and_a_knot_in_no_table(cli: Cli) -> None:
+    _, out, _ = cli("identify", "unknot")
+    assert "0_1, by grid of size 2" in out and "proven         yes" in out
+    _, out, _ = cli("identify", "T(4,5)")
+    assert "knot           no knot of up to 13 crossings\n" in out and "proven" not in out
+
+
+def test_too_large_a_diagram_is_said_to_be(cli: Cli, tmp_path: Path) -> None:
+    from knotopt.diagram.families import torus_knot
+
+    path = tmp_path / "large.json"
+    path.write_text(str([list(mark) for mark in torus_knot(12, 13).marks]))
+    status, out, _ = cli("identify", path)
+    assert status == 0 and "too many crossings to compare" in out
+    assert "Alexander      not computed" in out and "Jones          not computed" in out
+
+
+def test_proofs(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("snappy")
+    plain, proven = cli.json("identify", "10_71"), cli.json("identify", "10_71", "--prove")
+    assert plain["identified"] == proven["identified"] == "10_71"
+    assert proven["proven"] is True and "isometry of complements" in proven["by"]
+    monkeypatch.setattr(complements.importlib.util, "find_spec", lambda _: None)
+    status, _, err = cli("identify", "10_71", "--prove")
+    assert status == 1 and "pip install 'knotopt[snappy]'" in err
+
+
+def test_show_names_what_was_not_asked_for_by_name(cli: Cli) -> None:
+    _, out, _ = cli("show", "3")
+    assert "identified      3_1, by Alexander polynomial" in out and "signature       -2" in out
+    assert cli.json("show", "8_19")["identified"] is None
+    shown = cli.json("show", "m3_1")
+    assert shown["identified"]["identified"] == "m3_1" and shown["signature"] == 2
+    _, out, _ = cli("show", "stevedore")
+    assert "read as         name: stevedore is 6_1 or its mirror image" in out
