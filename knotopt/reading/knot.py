@@ -62,10 +62,10 @@ def read_knot(
     >>> found = read_knot("[[0, -1, 1], [1, 0, -1], [-1, 1, 0]]")
     >>> found.name, found.source, found.diagram.size
     ('matrix', 'as given', 3)
-    >>> read_knot("8_22")  # doctest: +ELLIPSIS
+    >>> read_knot("8_22")
     Traceback (most recent call last):
     ...
-    knotopt.errors.UnknownKnotError: no knot is named '8_22'; nearest: 8_2, ...
+    knotopt.errors.UnknownKnotError: no knot is named '8_22'; KnotInfo has 8_1 to 8_21
     """
     asked = Asked(_checked_over(over), form)
     only = _form_named(form)
