@@ -11,6 +11,7 @@ import typer
 from knotopt.cli import options
 from knotopt.cli.printing import print_json, print_tables, print_written
 from knotopt.cli.progress import track
+from knotopt.cli.sizes import check_size
 from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
@@ -49,6 +50,8 @@ def compare(
     limits = options.solver_limits(time_limit)
     openness = Requirements(openness=r).openness
     found = options.read_knots(knots, catalogue=catalogue)
+    for named in found:
+        check_size(named.diagram.size, "compare")
 
     def compare_one(named: NamedDiagram) -> Row:
         return comparison.compare(

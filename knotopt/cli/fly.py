@@ -16,6 +16,7 @@ from knotopt.cli.formulations import WithOption, check_openness, with_loops
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import status_line, track
 from knotopt.cli.reading import read
+from knotopt.cli.sizes import check_size
 from knotopt.flight.limits import ROOM, FlightLimits
 from knotopt.flight.request import FLOWN, SCHEDULES, FlightRequest
 from knotopt.mission.disturbed import DisturbedFlights
@@ -161,6 +162,7 @@ def fly(
     _check_surroundings(out, sim=sim)
 
     named = read(knot)
+    check_size(named.diagram.size, "fly", **{"--supports milp": supports == "milp"})
     sets = equally_small(named.diagram, supports, cut, requirements)
     request = FlightRequest(named.name, Path(supports).name, world, limits, schedule)
     mission = _mission(sets, request, disturbances, tighten, sim=sim)

@@ -9,6 +9,7 @@ import typer
 from knotopt.cli.options import JsonOption, KnotArgument
 from knotopt.cli.printing import print_facts, print_json
 from knotopt.cli.reading import read, reading_in_words
+from knotopt.cli.sizes import check_size
 
 if TYPE_CHECKING:
     from knotopt.identify.identify import Identified
@@ -31,6 +32,7 @@ def identify(
     from knotopt.identify.identify import identify as identify_diagram
 
     named = read(knot, says=True)
+    check_size(named.diagram.size, "identify")
     found = identify_diagram(named.diagram, prove=prove)
     if as_json:
         print_json(_json(named, found))

@@ -20,6 +20,7 @@ from knotopt.cli.formulations import (
 )
 from knotopt.cli.printing import print_json, print_note, print_table, print_written
 from knotopt.cli.progress import track
+from knotopt.cli.sizes import check_size
 from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
@@ -67,6 +68,8 @@ def prove(
         options.refuse("--method", f"expected {' or '.join(proofs)}")
     limits = options.solver_limits(time_limit)
     found = options.read_knots(knots, catalogue=catalogue)
+    for named in found:
+        check_size(named.diagram.size, "prove", **{f"--formulation {formulation}": True})
     settings = [asked.words, asked.threading, str(asked.openness), cut, method]
     header = options.run_header("prove", settings, found)
     proven: list[str] = []

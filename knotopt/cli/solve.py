@@ -20,6 +20,7 @@ from knotopt.cli.formulations import (
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import logged_bar, status_line, track
 from knotopt.cli.reading import read
+from knotopt.cli.sizes import check_size
 from knotopt.cli.solve_answer import answer_knot
 from knotopt.cli.solve_diagrams import (
     BudgetOption,
@@ -202,6 +203,7 @@ def solve(
     flights = FlightOptions(noise, trials, physics_budget, max_cut, None if diagrams else out)
     (flights.tests if verify_physics else flights.check_unused)()
     named = read(knot)
+    check_size(named.diagram.size, "solve", **{f"--formulation {formulation}": True})
     if verify_physics:
         if cut == "all":
             options.refuse("--cut", "with --verify-physics, give --cut best or a cut's name")

@@ -6,11 +6,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from knotopt.diagram.families import MAX_SIZE
 from knotopt.diagram.grid import GridDiagram
-from knotopt.errors import FileFormatError, KnotoptError
+from knotopt.errors import FileFormatError, GridError, KnotoptError
 from knotopt.planar.planar_diagram import PlanarDiagram
 from knotopt.planar.small_grid import small_grid
 from knotopt.reading import xo
+from knotopt.reading.codes import check_crossings
 from knotopt.reading.content import Content
 from knotopt.reading.forms import FORMS, Form
 from knotopt.reading.lists import Lists
@@ -58,10 +60,10 @@ def read_knot(
     >>> found = read_knot("[[0, -1, 1], [1, 0, -1], [-1, 1, 0]]")
     >>> found.name, found.source, found.diagram.size
     ('matrix', 'as given', 3)
-    >>> read_knot("8_22")  # doctest: +ELLIPSIS
+    >>> read_knot("8_22")
     Traceback (most recent call last):
     ...
-    knotopt.errors.UnknownKnotError: no knot is named '8_22'; nearest: 8_2, ...
+    knotopt.errors.UnknownKnotError: no knot is named '8_22'; KnotInfo has 8_1 to 8_21
     """
     asked = Asked(_checked_over(over), form)
     only = _form_named(form)
@@ -122,7 +124,10 @@ def _finished(found: Reading, title: str, source: Source, *, mirror: bool) -> Na
     """The record of what was read: drawn on a grid if it is not one, mirrored if asked."""
     diagram = found.diagram
     if isinstance(diagram, PlanarDiagram):
+        check_crossings(len(diagram.crossings))
         diagram = small_grid(diagram)
+    if diagram.size > MAX_SIZE:
+        raise GridError(f"a grid of size {diagram.size}; up to {MAX_SIZE} are read")
     named = NamedDiagram(
         found.name or source.name or title,
         diagram,
