@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from itertools import dropwhile
 from typing import Any
 
 import numpy as np
@@ -114,8 +115,7 @@ def _rows(text: str) -> Rows | None:
         for number, line in enumerate(text.splitlines(), 1)
         if not _REMARK.match(line)
     ]
-    while lines and not lines[0][1]:
-        lines.pop(0)
+    lines = [*dropwhile(lambda line: not line[1], lines)]
     lines = _without_count(_of_obj(lines))
     blocks = _blocks(lines)
     lines = [line for block in blocks for line in block]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from knotopt.catalogue.knotinfo import knotinfo_knots
+from knotopt.diagram.families import random_knot
 from knotopt.identify import complements
 from knotopt.identify import identify as identify_module
 from knotopt.identify.complements import are_isometric
@@ -12,6 +13,8 @@ from knotopt.planar.from_grid import planar_diagram
 from tests.helpers.random_moves import moved_about
 
 pytest.importorskip("snappy")
+
+NOT_HYPERBOLIC = {"", "0_1", "3_1", "5_1", "7_1", "8_19", "9_1", "10_124", "11a_367", "13a_4878"}
 
 
 def test_mutants_and_mirror_images() -> None:
@@ -38,3 +41,22 @@ def test_what_is_left_with_and_without(monkeypatch: pytest.MonkeyPatch) -> None:
     found = identify_module.identify(diagram)
     assert "m12n_57" in found.candidates and len(found.candidates) > 1
     assert found.name is None and not found.proven
+
+
+@pytest.mark.parametrize(
+    "seeds", [range(12), pytest.param(range(12, 150), marks=pytest.mark.slow)], ids=["few", "many"]
+)
+def test_names_of_random_knots_are_right(seeds: range) -> None:
+    """Hyperbolic complements of what is named, as SnapPy sees them; the names came without it."""
+    named = 0
+    for seed in seeds:
+        diagram = random_knot(18, seed)
+        found = identify_module.identify(diagram)
+        name = found.name or ""
+        if "#" in name or name.removeprefix("m") in NOT_HYPERBOLIC:
+            continue
+        knot = knotinfo_knots()[name.removeprefix("m")].diagram
+        knot = knot.mirrored if name.startswith("m") else knot
+        assert are_isometric(planar_diagram(diagram), planar_diagram(knot)), (seed, name)
+        named += 1
+    assert named > len(seeds) / 8
