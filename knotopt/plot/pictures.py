@@ -15,6 +15,7 @@ from knotopt.plot.figures import (
     diagram_figure,
     figure_bytes,
     set_figure,
+    smallest_figure,
     supports_figure,
 )
 from knotopt.plot.flight import flight_figure
@@ -23,7 +24,6 @@ from knotopt.plot.topology import plan_figure
 from knotopt.reading.record import NamedDiagram
 from knotopt.supports.lcf import LcfResult
 from knotopt.supports.minimal import MinimalSupports
-from knotopt.supports.registry import find_formulation
 from knotopt.supports.search import CutSearch
 from knotopt.supports.support_set import SupportSet
 from knotopt.topology.plan import PlanGraph
@@ -69,9 +69,7 @@ def _(result: LcfResult, title: str = "") -> Figure:
 
 @picture.register
 def _(result: MinimalSupports, title: str = "") -> Figure:
-    taut = find_formulation(result.requirements.formulation).is_taut
-    title = title or result.in_words
-    return supports_figure(result.lcf.regions, result.supports, title, taut=taut)
+    return smallest_figure(result, title or result.in_words)
 
 
 @picture.register

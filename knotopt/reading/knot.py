@@ -6,8 +6,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from knotopt.diagram.families import MAX_SIZE
 from knotopt.diagram.grid import GridDiagram
-from knotopt.errors import FileFormatError, KnotoptError
+from knotopt.errors import DiagramError, FileFormatError, GridError, KnotoptError
 from knotopt.planar.planar_diagram import PlanarDiagram
 from knotopt.planar.small_grid import small_grid
 from knotopt.reading import xo
@@ -18,6 +19,9 @@ from knotopt.reading.miss import miss
 from knotopt.reading.over import COLUMNS, ROWS
 from knotopt.reading.record import Asked, NamedDiagram, Reading
 from knotopt.reading.source import Source, read_source
+
+MAX_CROSSINGS = 500
+"""Of a planar diagram that is drawn on a grid, which then takes up to about ten seconds."""
 
 
 def read_knot(
@@ -58,10 +62,10 @@ def read_knot(
     >>> found = read_knot("[[0, -1, 1], [1, 0, -1], [-1, 1, 0]]")
     >>> found.name, found.source, found.diagram.size
     ('matrix', 'as given', 3)
-    >>> read_knot("8_22")  # doctest: +ELLIPSIS
+    >>> read_knot("8_22")
     Traceback (most recent call last):
     ...
-    knotopt.errors.UnknownKnotError: no knot is named '8_22'; nearest: 8_2, ...
+    knotopt.errors.UnknownKnotError: no knot is named '8_22'; KnotInfo has 8_1 to 8_21
     """
     asked = Asked(_checked_over(over), form)
     only = _form_named(form)
@@ -122,7 +126,13 @@ def _finished(found: Reading, title: str, source: Source, *, mirror: bool) -> Na
     """The record of what was read: drawn on a grid if it is not one, mirrored if asked."""
     diagram = found.diagram
     if isinstance(diagram, PlanarDiagram):
+        if len(diagram.crossings) > MAX_CROSSINGS:
+            raise DiagramError(
+                f"{len(diagram.crossings)} crossings: up to {MAX_CROSSINGS} are drawn on a grid"
+            )
         diagram = small_grid(diagram)
+    if diagram.size > MAX_SIZE:
+        raise GridError(f"a grid of size {diagram.size}; up to {MAX_SIZE} are read")
     named = NamedDiagram(
         found.name or source.name or title,
         diagram,
