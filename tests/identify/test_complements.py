@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from knotopt.catalogue.knotinfo import knotinfo_knots
-from knotopt.diagram.families import random_knot
+from knotopt.diagram.families import random_knot, torus_knot
 from knotopt.identify import complements
 from knotopt.identify import identify as identify_module
-from knotopt.identify.complements import are_isometric
+from knotopt.identify.complements import are_isometric, is_unknot
 from knotopt.planar.from_grid import planar_diagram
 from tests.helpers.random_moves import moved_about
 
@@ -24,6 +24,13 @@ def test_mutants_and_mirror_images() -> None:
         planar = planar_diagram(knotinfo_knots()[name].diagram)
         assert are_isometric(moved, planar) == (name == "12n_56")
         assert not are_isometric(moved, planar.mirrored)
+
+
+def test_the_unknot_by_knot_floer_homology() -> None:
+    unknots = [planar_diagram(moved_about(torus_knot(1, 4), seed, 4)) for seed in range(3)]
+    assert max(len(planar.crossings) for planar in unknots) > 2
+    assert all(map(is_unknot, unknots))
+    assert not is_unknot(planar_diagram(knotinfo_knots()["11n_34"].diagram))
 
 
 def test_torus_knots_have_no_hyperbolic_complement() -> None:
