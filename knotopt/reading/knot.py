@@ -8,10 +8,11 @@ from typing import Any
 
 from knotopt.diagram.families import MAX_SIZE
 from knotopt.diagram.grid import GridDiagram
-from knotopt.errors import DiagramError, FileFormatError, GridError, KnotoptError
+from knotopt.errors import FileFormatError, GridError, KnotoptError
 from knotopt.planar.planar_diagram import PlanarDiagram
 from knotopt.planar.small_grid import small_grid
 from knotopt.reading import xo
+from knotopt.reading.codes import check_crossings
 from knotopt.reading.content import Content
 from knotopt.reading.forms import FORMS, Form
 from knotopt.reading.lists import Lists
@@ -20,9 +21,6 @@ from knotopt.reading.names import mirror_name
 from knotopt.reading.over import COLUMNS, ROWS
 from knotopt.reading.record import Asked, NamedDiagram, Reading
 from knotopt.reading.source import Source, read_source
-
-MAX_CROSSINGS = 500
-"""Of a planar diagram that is drawn on a grid, which then takes up to about ten seconds."""
 
 
 def read_knot(
@@ -127,10 +125,7 @@ def _finished(found: Reading, title: str, source: Source, *, mirror: bool) -> Na
     """The record of what was read: drawn on a grid if it is not one, mirrored if asked."""
     diagram = found.diagram
     if isinstance(diagram, PlanarDiagram):
-        if len(diagram.crossings) > MAX_CROSSINGS:
-            raise DiagramError(
-                f"{len(diagram.crossings)} crossings: up to {MAX_CROSSINGS} are drawn on a grid"
-            )
+        check_crossings(len(diagram.crossings))
         diagram = small_grid(diagram)
     if diagram.size > MAX_SIZE:
         raise GridError(f"a grid of size {diagram.size}; up to {MAX_SIZE} are read")
