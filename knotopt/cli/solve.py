@@ -203,7 +203,7 @@ def solve(
     flights = FlightOptions(noise, trials, physics_budget, max_cut, None if diagrams else out)
     (flights.tests if verify_physics else flights.check_unused)()
     named = read(knot)
-    check_size(named.diagram.size, "solve", **{f"--formulation {formulation}": True})
+    check_size(named.diagram.size, "solve", **{f"--formulation {asked.formulation}": True})
     if verify_physics:
         if cut == "all":
             options.refuse("--cut", "with --verify-physics, give --cut best or a cut's name")
