@@ -17,6 +17,7 @@ from knotopt.reading.content import Content
 from knotopt.reading.forms import FORMS, Form
 from knotopt.reading.lists import Lists
 from knotopt.reading.miss import miss
+from knotopt.reading.names import mirror_name
 from knotopt.reading.over import COLUMNS, ROWS
 from knotopt.reading.record import Asked, NamedDiagram, Reading
 from knotopt.reading.source import Source, read_source
@@ -136,19 +137,18 @@ def _finished(found: Reading, title: str, source: Source, *, mirror: bool) -> Na
         title,
         tuple(found.notes),
         found.ambiguous,
+        found.diagram if isinstance(found.diagram, PlanarDiagram) else None,
     )
-    return _mirrored(named, is_name=found.name is not None) if mirror else named
+    return _mirrored(named) if mirror else named
 
 
-def _mirrored(named: NamedDiagram, *, is_name: bool = True) -> NamedDiagram:
+def _mirrored(named: NamedDiagram) -> NamedDiagram:
     """The mirror image, and so called if the knot has a name of its own."""
-    name = named.name
-    if is_name:
-        name = name[1:] if name.startswith("m") else f"m{name}"
     return replace(
         named,
-        name=name,
+        name=mirror_name(named.name) if named.form == "name" else named.name,
         diagram=named.diagram.mirrored,
+        planar=named.planar and named.planar.mirrored,
         prime_knot=None,
         notes=(*named.notes, "mirror image, as asked"),
         ambiguous=False,
