@@ -25,6 +25,7 @@ from benchmarks import (  # noqa: F401 -- they register themselves
     formulations_growth,
     grids_catalogue,
     heuristics_flown,
+    identified,
     lcf_catalogue,
     lcf_growth,
     loops,

@@ -61,7 +61,8 @@ ALLOWED: Mapping[str, str] = {
     "atlas",
     "__main__": "cli",
     "benchmarks": "formulations errors arrays files document diagram planar search cable catalogue "
-    "topology reading verify supports path flight laid sim rehearsal plot mission tables atlas cli",
+    "identify topology reading verify supports path flight laid sim rehearsal plot mission tables "
+    "atlas cli",
 }
 """What each package, or module right in `knotopt`, may import of the others; lower ones first."""
 

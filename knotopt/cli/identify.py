@@ -21,7 +21,10 @@ SHOWN = 12  # candidates in one line
 def identify(
     knot: KnotArgument,
     prove: Annotated[
-        bool, typer.Option(help="Have SnapPy prove it for hyperbolic knots (the snappy extra).")
+        bool,
+        typer.Option(
+            "--prove", help="Have SnapPy prove it for hyperbolic knots (the snappy extra)."
+        ),
     ] = False,
     as_json: JsonOption = False,
 ) -> None:
@@ -33,7 +36,7 @@ def identify(
 
     named = read(knot, says=True)
     check_size(named.diagram.size, "identify")
-    found = identify_diagram(named.diagram, prove=prove)
+    found = identify_diagram(named.diagram, planar=named.planar, prove=prove)
     if as_json:
         print_json(_json(named, found))
     else:

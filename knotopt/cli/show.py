@@ -60,7 +60,7 @@ def show(
         from knotopt.plot.figures import cable_figure, save_figure
 
         save_figure(cable_figure(cable, f"{named.name}, cut {cable.cut}"), plot)
-    found = None if named.prime_knot else identify(simplest.diagram)
+    found = None if named.prime_knot else identify(simplest.diagram, planar=named.planar)
     content = _json(named, cable, simplest, polynomial)
     content["identified"] = None if found is None else identified_json(found)
     if as_json:

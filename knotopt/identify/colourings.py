@@ -49,7 +49,7 @@ def colouring_polynomial(
     Returns
     -------
     tuple of int, length of the group's order
-        By the place in the group of an orbit's first element. None if more choices were to be tried.
+        By the place in the group of an orbit's first element. None if more would be tried.
     """
     strands = Wirtinger.of(planar)
     size, count = len(colours.conjugates), len(strands.over)

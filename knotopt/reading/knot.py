@@ -8,20 +8,19 @@ from typing import Any
 
 from knotopt.diagram.families import MAX_SIZE
 from knotopt.diagram.grid import GridDiagram
-from knotopt.errors import DiagramError, FileFormatError, GridError, KnotoptError
+from knotopt.errors import FileFormatError, GridError, KnotoptError
 from knotopt.planar.planar_diagram import PlanarDiagram
 from knotopt.planar.small_grid import small_grid
 from knotopt.reading import xo
+from knotopt.reading.codes import check_crossings
 from knotopt.reading.content import Content
 from knotopt.reading.forms import FORMS, Form
 from knotopt.reading.lists import Lists
 from knotopt.reading.miss import miss
+from knotopt.reading.names import mirror_name
 from knotopt.reading.over import COLUMNS, ROWS
 from knotopt.reading.record import Asked, NamedDiagram, Reading
 from knotopt.reading.source import Source, read_source
-
-MAX_CROSSINGS = 500
-"""Of a planar diagram that is drawn on a grid, which then takes up to about ten seconds."""
 
 
 def read_knot(
@@ -126,10 +125,7 @@ def _finished(found: Reading, title: str, source: Source, *, mirror: bool) -> Na
     """The record of what was read: drawn on a grid if it is not one, mirrored if asked."""
     diagram = found.diagram
     if isinstance(diagram, PlanarDiagram):
-        if len(diagram.crossings) > MAX_CROSSINGS:
-            raise DiagramError(
-                f"{len(diagram.crossings)} crossings: up to {MAX_CROSSINGS} are drawn on a grid"
-            )
+        check_crossings(len(diagram.crossings))
         diagram = small_grid(diagram)
     if diagram.size > MAX_SIZE:
         raise GridError(f"a grid of size {diagram.size}; up to {MAX_SIZE} are read")
@@ -141,19 +137,18 @@ def _finished(found: Reading, title: str, source: Source, *, mirror: bool) -> Na
         title,
         tuple(found.notes),
         found.ambiguous,
+        found.diagram if isinstance(found.diagram, PlanarDiagram) else None,
     )
-    return _mirrored(named, is_name=found.name is not None) if mirror else named
+    return _mirrored(named) if mirror else named
 
 
-def _mirrored(named: NamedDiagram, *, is_name: bool = True) -> NamedDiagram:
+def _mirrored(named: NamedDiagram) -> NamedDiagram:
     """The mirror image, and so called if the knot has a name of its own."""
-    name = named.name
-    if is_name:
-        name = name[1:] if name.startswith("m") else f"m{name}"
     return replace(
         named,
-        name=name,
+        name=mirror_name(named.name) if named.form == "name" else named.name,
         diagram=named.diagram.mirrored,
+        planar=named.planar and named.planar.mirrored,
         prime_knot=None,
         notes=(*named.notes, "mirror image, as asked"),
         ambiguous=False,
