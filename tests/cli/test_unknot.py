@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -120,6 +121,11 @@ def test_atlas_and_report(cli: Cli, knot: str | Path, tmp_path: Path) -> None:
     status, out, _ = cli("atlas", run, knot, "3_1", "--jobs", 1, "--span", "--paths")
     assert status == 0 and "0 wrong" in out
     assert cli("report", run, "--out", tmp_path / "report")[0] == 0
+
+
+def test_identify(cli: Cli, knot: str | Path) -> None:
+    status, out, _ = cli("identify", knot)
+    assert status == 0 and re.search(r"^knot  +0_1, by", out, re.MULTILINE)
 
 
 def test_knots(cli: Cli) -> None:
