@@ -35,6 +35,7 @@ from benchmarks import (  # noqa: F401 -- they register themselves
     paths_tradeoff,
     physics,
     physics_fewest,
+    physics_safe,
     physics_subsets,
     physics_tight,
     solvers,
