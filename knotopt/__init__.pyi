@@ -1,3 +1,4 @@
+from .api import count_robots as count_robots
 from .api import plan as plan
 from .api import read as read
 from .api import solve as solve

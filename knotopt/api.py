@@ -1,4 +1,4 @@
-"""The two questions that most users have, one call each: which supports, and which flight."""
+"""The questions that most users have, one call each: how many robots, which supports, which flight."""
 
 from __future__ import annotations
 
@@ -18,6 +18,8 @@ from knotopt.mission.alternatives import plan_first, rehearse_first
 from knotopt.path.world import World
 from knotopt.reading.knot import read_knot
 from knotopt.reading.record import NamedDiagram
+from knotopt.sandwich.answer import BUDGET, Answer, answer
+from knotopt.search.budget import Budget
 from knotopt.supports.minimal import MinimalSupports, minimal_supports
 from knotopt.supports.requirements import Requirements
 from knotopt.supports.search import best_supports
@@ -26,6 +28,34 @@ from knotopt.supports.support_set import SupportSet
 
 read = read_knot
 """Any knot: see `knotopt.reading.knot.read_knot`."""
+
+
+def count_robots(
+    knot: str | GridDiagram, *, budget: Budget | None = None, seed: int = 0
+) -> Answer:
+    """How many robots a knot takes, as `knotopt solve KNOT` says it.
+
+    Parameters
+    ----------
+    knot : str or GridDiagram
+        As for `solve`.
+    budget : Budget, optional
+        Of the search for a grid on which the safe set is small; by default two seconds.
+    seed : int
+        Of that search.
+
+    Raises
+    ------
+    KnotoptError
+        No such knot.
+
+    Examples
+    --------
+    >>> found = count_robots("4_1", budget=Budget(grids=1000))
+    >>> found.known.needed.robots, found.known.flown.robots, found.is_settled
+    (4, 4, True)
+    """
+    return answer(_named(knot), budget=budget or BUDGET, seed=seed)
 
 
 def solve(

@@ -57,7 +57,7 @@ ALLOWED: Mapping[str, str] = {
     "sandwich",
     "atlas": "formulations knotopt errors arrays files frames document diagram cable catalogue "
     "reading verify supports flight sim plot tables",
-    "api": "formulations errors diagram cable reading supports path flight mission",
+    "api": "formulations errors diagram search cable reading supports path flight sandwich mission",
     "cli": "formulations knotopt errors files document diagram planar search cable catalogue "
     "identify topology reading verify supports path flight laid sandwich sim rehearsal plot "
     "mission tables atlas",

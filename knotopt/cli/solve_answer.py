@@ -65,6 +65,7 @@ def _json(found: Answer) -> dict[str, Any]:
             "why": needed.why,
             "standing": str(needed.standing),
             "assumptions": list(needed.assumptions),
+            "against": needed.against,
         },
         "diagram": {**_set_json(found.laid), "loops": _loops(found.laid)},
         "flown": None
@@ -131,6 +132,8 @@ def _show(found: Answer) -> None:
     )
     if needed.assumptions:
         print_note("assumed: " + "; ".join(needed.assumptions))
+    if needed.against:
+        print_note("outside the assumptions: " + needed.against)
 
 
 def _in_a_line(found: Answer) -> str:
