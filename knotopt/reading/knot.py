@@ -104,7 +104,7 @@ def _read(content: Content, asked: Asked, only: Form | None) -> tuple[Reading, s
     if content.key and len(forms) == 1:
         raise FileFormatError(f'the key "{content.key}" holds no {forms[0].title}')
     if only is not None:
-        raise FileFormatError(f"this cannot be read as {only.title}")
+        raise FileFormatError(f"this cannot be read as {only.name} ({only.title})")
     raise miss(content)
 
 

@@ -79,5 +79,5 @@ def test_words_of_options() -> None:
         read_knot("3_1", form="knot")
     with pytest.raises(FileFormatError, match="passes over is 'left', not columns or rows"):
         read_knot("3_1", over="left")
-    with pytest.raises(FileFormatError, match="cannot be read as matrix"):
+    with pytest.raises(FileFormatError, match=r"cannot be read as matrix \(matrix\)"):
         read_knot("3_1", form="matrix")
