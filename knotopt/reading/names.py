@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from knotopt.catalogue.everyday_names import everyday_names, plain
 from knotopt.catalogue.knots import PrimeKnot
 from knotopt.catalogue.prime_names import numbered, prime_named
-from knotopt.catalogue.stored_grids import GRIDS, stored_grids
+from knotopt.catalogue.stored_grids import GRIDS, stored_grid
 from knotopt.catalogue.table1_grids import table1_grids
 from knotopt.diagram.families import torus_knot
 from knotopt.diagram.grid import GridDiagram
@@ -122,7 +122,7 @@ def _mirrored(knot: _Named) -> _Named:
         notes = (*notes, f"{knot.prime_knot.name} is its own mirror image")
     return replace(
         knot,
-        name="#".join(mirror_name(name) for name in knot.name.split("#")),
+        name=mirror_name(knot.name),
         diagram=knot.diagram.mirrored,
         notes=notes,
         prime_knot=None,
@@ -134,9 +134,11 @@ def mirror_name(name: str) -> str:
 
     Examples
     --------
-    >>> mirror_name("3_1"), mirror_name("m3_1"), mirror_name("T(2,-3)")
-    ('m3_1', '3_1', 'T(2,3)')
+    >>> mirror_name("3_1#m4_1"), mirror_name("T(2,-3)")
+    ('m3_1#4_1', 'T(2,3)')
     """
+    if "#" in name:
+        return "#".join(map(mirror_name, name.split("#")))
     torus = re.fullmatch(r"T\((-?\d+),(-?)(\d+)\)", name)
     if torus:
         return f"T({torus[1]},{'' if torus[2] else '-'}{torus[3]})"
@@ -171,13 +173,12 @@ def _stored(text: str, name: str) -> _Named | None:
     knot = _knot(text, _DEEPEST)
     if knot is None:
         return None
-    stored = stored_grids().get((knot.name.removeprefix("m"), name))
-    if stored is None:
+    diagram = stored_grid(knot.name, name)
+    if diagram is None:
         raise UnknownKnotError(
             f"no grid {name} is stored of {knot.name}: {', '.join(GRIDS)} are of the "
             "prime knots up to 10 crossings"
         )
-    diagram = stored.diagram.mirrored if knot.name.startswith("m") else stored.diagram
     return replace(knot, diagram=diagram, source=f"{knot.source}; best grid found, {GRIDS[name]}")
 
 
