@@ -113,9 +113,15 @@ def measure(case: Case) -> Result:
     """The same of the first cut whose set, as small as the best cut's, ties with robots apart."""
     if case["method"] in ("none", "random"):
         return measure_set(case)
-    choice, requirements = METHODS[case["method"]]
-    sets = equally_small(read_knot(case["row"]).diagram, choice, requirements=requirements)
-    return _measured(case["row"], tuple(sets))
+    return measure_first(case["row"], *METHODS[case["method"]])
+
+
+def measure_first(
+    name: str, choice: str, requirements: Requirements | None, seeds: Iterable[int] = SEEDS
+) -> Result:
+    """The same for any choice of supports."""
+    sets = equally_small(read_knot(name).diagram, choice, requirements=requirements)
+    return _measured(name, tuple(sets), seeds)
 
 
 def rehearse(name: str, sets: Iterable[SupportSet]) -> FlownSet:
@@ -123,7 +129,7 @@ def rehearse(name: str, sets: Iterable[SupportSet]) -> FlownSet:
     return rehearse_first(sets, FlightRequest(name, "file"), attempts=ATTEMPTS)
 
 
-def _measured(name: str, sets: tuple[SupportSet, ...]) -> Result:
+def _measured(name: str, sets: tuple[SupportSet, ...], seeds: Iterable[int] = SEEDS) -> Result:
     started = time.perf_counter()
     try:
         if sets[0].supports:
@@ -140,7 +146,7 @@ def _measured(name: str, sets: tuple[SupportSet, ...]) -> Result:
     return {
         **about,
         "planned": True,
-        **measure_flown(trial, SEEDS),
+        **measure_flown(trial, seeds),
         "rehearsals": rehearsals,
         "planning_seconds": round(planned, 2),
     }

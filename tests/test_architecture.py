@@ -44,7 +44,7 @@ ALLOWED: Mapping[str, str] = {
     "path": "showing formulations errors arrays ranges cable topology verify supports",
     "flight": "showing formulations errors arrays ranges diagram cable topology verify supports "
     "path",
-    "laid": "formulations errors diagram planar cable supports path flight",
+    "laid": "formulations errors arrays diagram planar cable supports path flight",
     "sandwich": "formulations diagram catalogue identify reading search supports laid",
     "sim": "errors arrays ranges diagram cable catalogue verify flight",
     "rehearsal": "formulations errors arrays ranges diagram cable supports path flight sim",
@@ -63,7 +63,8 @@ ALLOWED: Mapping[str, str] = {
     "mission tables atlas",
     "__main__": "cli",
     "benchmarks": "formulations errors arrays files document diagram planar search cable catalogue "
-    "topology reading verify supports path flight laid sim rehearsal plot mission tables atlas cli",
+    "identify topology reading verify supports path flight laid sim rehearsal plot mission tables "
+    "atlas cli",
 }
 """What each package, or module right in `knotopt`, may import of the others; lower ones first."""
 
@@ -71,6 +72,7 @@ BY_NAME = {
     "knotopt": "the public names, when they are first used (lazy_loader)",
     "knotopt.atlas.engine": "distributed, of the extra, where a cluster is asked for",
     "knotopt.cli.app": "a command's module, when the command is asked for",
+    "knotopt.laid.invariants": "knot Floer homology, of the extra, where it is installed",
     "knotopt.showing": "knotopt.plot.pictures, when a result is asked for its picture",
     "formulations.backends": "a solver's module, when the solver is asked for",
 }

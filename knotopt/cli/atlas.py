@@ -15,6 +15,7 @@ from knotopt.cli.options import CatalogueOption, OpennessOption, given, refuse, 
 from knotopt.cli.printing import print_facts, print_written
 from knotopt.cli.progress import progress_bar
 from knotopt.cli.reading import read
+from knotopt.cli.sizes import check_size
 from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
@@ -114,6 +115,8 @@ def atlas(
     )
     engine = _engine(jobs, scheduler)
     listed = _list(knots, grids, catalogue=catalogue, knotinfo=knotinfo)
+    for row in listed:
+        check_size(row.grid_size, "atlas", **{"--span": span})
     done = 0
     try:
         with progress_bar("knots", len(listed)) as show:

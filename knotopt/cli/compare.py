@@ -11,6 +11,7 @@ import typer
 from knotopt.cli import options
 from knotopt.cli.printing import print_json, print_tables, print_written
 from knotopt.cli.progress import track
+from knotopt.cli.sizes import check_size
 from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
@@ -33,7 +34,9 @@ def compare(
     ] = None,
     as_json: options.JsonOption = False,
 ) -> None:
-    """Compare baseline, LCF, LCF layered, opening and span, and paths by both methods.
+    """Compare baseline, LCF, LCF layered, smallest sets, and paths by both methods.
+
+    The smallest sets are of opening, span without loops and with them (safe), and loops.
 
     With --out, a run that is interrupted goes on where it stopped.
     Example: knotopt compare 3 4 5 8_19 'T(3,5)' --out comparison.tex
@@ -47,6 +50,8 @@ def compare(
     limits = options.solver_limits(time_limit)
     openness = Requirements(openness=r).openness
     found = options.read_knots(knots, catalogue=catalogue)
+    for named in found:
+        check_size(named.diagram.size, "compare")
 
     def compare_one(named: NamedDiagram) -> Row:
         return comparison.compare(

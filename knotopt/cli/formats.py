@@ -9,6 +9,7 @@ import typer
 from knotopt.cli.completion import among
 from knotopt.cli.options import check_choice, refuse
 from knotopt.cli.reading import read
+from knotopt.cli.sizes import check_size
 from knotopt.reading.writing import LISTED_FORMS, WRITTEN_FORMS, write_knot
 
 WrittenOption = Annotated[
@@ -28,4 +29,6 @@ def print_form(knot: str, form: str, others: dict[str, Any]) -> None:
     for option, value in others.items():
         if value:
             refuse(option, "does not go with --format, which prints the knot alone")
-    print(write_knot(read(knot).diagram, form), end="")
+    named = read(knot)
+    check_size(named.diagram.size, "show --format")
+    print(write_knot(named.diagram, form), end="")

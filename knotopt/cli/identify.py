@@ -9,6 +9,7 @@ import typer
 from knotopt.cli.options import JsonOption, KnotArgument
 from knotopt.cli.printing import print_facts, print_json
 from knotopt.cli.reading import read, reading_in_words
+from knotopt.cli.sizes import check_size
 
 if TYPE_CHECKING:
     from knotopt.identify.identify import Identified
@@ -20,7 +21,10 @@ SHOWN = 12  # candidates in one line
 def identify(
     knot: KnotArgument,
     prove: Annotated[
-        bool, typer.Option(help="Have SnapPy prove it for hyperbolic knots (the snappy extra).")
+        bool,
+        typer.Option(
+            "--prove", help="Have SnapPy prove it for hyperbolic knots (the snappy extra)."
+        ),
     ] = False,
     as_json: JsonOption = False,
 ) -> None:
@@ -31,7 +35,8 @@ def identify(
     from knotopt.identify.identify import identify as identify_diagram
 
     named = read(knot, says=True)
-    found = identify_diagram(named.diagram, prove=prove)
+    check_size(named.diagram.size, "identify")
+    found = identify_diagram(named.diagram, planar=named.planar, prove=prove)
     if as_json:
         print_json(_json(named, found))
     else:

@@ -9,6 +9,7 @@ import typer
 from knotopt.cli import options
 from knotopt.cli.printing import print_json, print_table, print_written
 from knotopt.cli.reading import read
+from knotopt.cli.sizes import check_size
 
 if TYPE_CHECKING:
     from knotopt.supports.lcf import LcfResult
@@ -35,6 +36,7 @@ def lcf(
     from knotopt.supports.lcf import best_cut, lcf_by_cut
 
     named = read(knot)
+    check_size(named.diagram.size, "lcf", **{"--plot": plot, "--cut all": cut == "all"})
     if cut == "all":
         if plot is not None:
             options.refuse("--plot", "draws one cut: give --cut best or a cut's name")

@@ -11,9 +11,16 @@ import typer
 
 from knotopt.cli import options
 from knotopt.cli.completion import among
-from knotopt.cli.formulations import FormulationOption, ThreadingOption, WithOption, with_loops
+from knotopt.cli.formulations import (
+    FormulationOption,
+    ThreadingOption,
+    WithOption,
+    check_openness,
+    with_loops,
+)
 from knotopt.cli.printing import print_json, print_note, print_table, print_written
 from knotopt.cli.progress import track
+from knotopt.cli.sizes import check_size
 from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
@@ -54,12 +61,15 @@ def prove(
     from knotopt.supports.certificate import prove as prove_knot
     from knotopt.supports.registry import find_formulation
 
+    check_openness(formulation, r)
     asked = Requirements(formulation, r, threading, with_loops=with_loops(with_))
     proofs = find_formulation(formulation).proofs
     if method not in (None, *proofs):
         options.refuse("--method", f"expected {' or '.join(proofs)}")
     limits = options.solver_limits(time_limit)
     found = options.read_knots(knots, catalogue=catalogue)
+    for named in found:
+        check_size(named.diagram.size, "prove", **{f"--formulation {formulation}": True})
     settings = [asked.words, asked.threading, str(asked.openness), cut, method]
     header = options.run_header("prove", settings, found)
     proven: list[str] = []

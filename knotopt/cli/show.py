@@ -12,6 +12,7 @@ from knotopt.cli.formats import WrittenOption, print_form
 from knotopt.cli.options import JsonOption, KnotArgument, PlotOption
 from knotopt.cli.printing import print_facts, print_json, print_written
 from knotopt.cli.reading import read, reading_in_words
+from knotopt.cli.sizes import check_size
 
 if TYPE_CHECKING:
     from knotopt.cable.cable import Cable
@@ -49,6 +50,7 @@ def show(
     from knotopt.identify.identify import identify
 
     named = read(knot, says=True)
+    check_size(named.diagram.size, "show", **{"--plot": plot})
     cable = Cable(named.diagram, cut)
     # Of a diagram with many crossings, the polynomial is computed on a simpler one of the knot.
     simplest = Cable(simplify(named.diagram), "L+")
@@ -58,7 +60,7 @@ def show(
         from knotopt.plot.figures import cable_figure, save_figure
 
         save_figure(cable_figure(cable, f"{named.name}, cut {cable.cut}"), plot)
-    found = None if named.prime_knot else identify(simplest.diagram)
+    found = None if named.prime_knot else identify(simplest.diagram, planar=named.planar)
     content = _json(named, cable, simplest, polynomial)
     content["identified"] = None if found is None else identified_json(found)
     if as_json:

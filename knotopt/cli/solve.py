@@ -10,10 +10,17 @@ import typer
 from formulations.backends import DEFAULT
 from formulations.solution import Limits
 from knotopt.cli import options
-from knotopt.cli.formulations import ThreadingOption, WhichFormulationOption, WithOption, with_loops
+from knotopt.cli.formulations import (
+    ThreadingOption,
+    WhichFormulationOption,
+    WithOption,
+    check_openness,
+    with_loops,
+)
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import logged_bar, status_line, track
 from knotopt.cli.reading import read
+from knotopt.cli.sizes import check_size
 from knotopt.cli.solve_answer import answer_knot
 from knotopt.cli.solve_diagrams import (
     BudgetOption,
@@ -170,6 +177,7 @@ def solve(
             as_json=as_json,
         )
         return
+    check_openness(formulation or LOOPS, r)
     asked = Requirements(
         formulation or LOOPS,
         r,
@@ -195,6 +203,7 @@ def solve(
     flights = FlightOptions(noise, trials, physics_budget, max_cut, None if diagrams else out)
     (flights.tests if verify_physics else flights.check_unused)()
     named = read(knot)
+    check_size(named.diagram.size, "solve", **{f"--formulation {asked.formulation}": True})
     if verify_physics:
         if cut == "all":
             options.refuse("--cut", "with --verify-physics, give --cut best or a cut's name")

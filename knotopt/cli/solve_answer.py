@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from knotopt.cli.printing import print_facts, print_json, print_note, print_written
 from knotopt.cli.progress import status_line
 from knotopt.cli.reading import read
+from knotopt.cli.sizes import check_size
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -34,6 +35,7 @@ def answer_knot(
 
     spent = BUDGET if budget is None else Budget.parse(budget)
     named = read(knot)
+    check_size(named.diagram.size, "solve")
     with status_line("searching diagrams"):
         found = answer(named, budget=spent, seed=seed, solver=solver, limits=limits)
     written = []
@@ -54,7 +56,6 @@ def answer_knot(
 def _json(found: Answer) -> dict[str, Any]:
     """What `--json` says; each set of supports is on the grid that stands beside it."""
     needed, flown = found.known.needed, found.known.flown
-    grids = found.safe_search.grids
     return {
         "knot": found.named.name,
         "identified": list(found.identified.candidates),
@@ -78,15 +79,21 @@ def _json(found: Answer) -> dict[str, Any]:
             "flights": flown.flights,
             "noise": flown.noise,
         },
-        "safe": {
-            **_set_json(found.safe),
-            "openness": float(found.safe.requirements.openness),
-            "grids_looked_at": grids.looked,
-            "grids_solved": found.safe_search.walk.solved,
-            "seed": found.seed,
-        },
+        "safe": _safe_json(found),
         "lcf": {"robots": found.lcf.robots, "cut": str(found.lcf.cable.cut)},
         "every_corner": found.baseline,
+    }
+
+
+def _safe_json(found: Answer) -> dict[str, Any] | None:
+    if found.safe is None or found.safe_search is None:
+        return None
+    return {
+        **_set_json(found.safe),
+        "openness": float(found.safe.requirements.openness),
+        "grids_looked_at": found.safe_search.grids.looked,
+        "grids_solved": found.safe_search.walk.solved,
+        "seed": found.seed,
     }
 
 
@@ -117,7 +124,7 @@ def _show(found: Answer) -> None:
             ("needed", _counted(needed.robots, f"{needed.why}; {needed.standing}")),
             ("this diagram", _counted(found.laid.robots, _laid(found))),
             ("flown", _counted(team.robots if team else None, _flown(team))),
-            ("safe", _counted(found.safe.robots if found.safe.found else None, _safe(found))),
+            ("safe", _counted(found.safe.robots if found.safe else None, _safe(found))),
             ("LCF", _counted(found.lcf.robots, f"the heuristic, cut {found.lcf.cable.cut}")),
             ("every corner", _counted(found.baseline, "a robot at every turning point")),
         ]
@@ -160,12 +167,11 @@ def _flown(team: FlownTeam | None) -> str:
 
 
 def _safe(found: Answer) -> str:
-    asked = found.safe.requirements
-    if not found.safe.found:
-        return "no safe set was found"
-    size = found.safe.cable.diagram.size
+    if found.safe is None or found.safe_search is None:
+        return "no safe set is known"
+    size, openness = found.safe.cable.diagram.size, float(found.safe.requirements.openness)
     return (
-        f"keep every loop and threaded region open (span with loops, r {float(asked.openness):g}), "
+        f"keep every loop and threaded region open (span with loops, r {openness:g}), "
         f"best of {found.safe_search.walk.solved} grids solved, {size} x {size}"
     )
 

@@ -67,11 +67,13 @@ class GridDiagram(Shown):
             )
         _check_two_per_line([(c, r) for c, r, _ in _entries(self.minus, self.plus)])
         for name, rows in (("-1", self.minus), ("+1", self.plus)):
-            for row in range(1, len(rows) + 1):
-                columns = [c for c, r in enumerate(rows, 1) if r == row]
-                if len(columns) != 1:
+            columns: list[list[int]] = [[] for _ in rows]
+            for column, row in enumerate(rows, 1):
+                columns[row - 1].append(column)
+            for row, found in enumerate(columns, 1):
+                if len(found) != 1:
                     raise GridError(
-                        f"row {row} has {len(columns)} entries {name}{_where('column', columns)}, "
+                        f"row {row} has {len(found)} entries {name}{_where('column', found)}, "
                         "expected exactly one"
                     )
         _check_one_component(self.minus, self.plus)

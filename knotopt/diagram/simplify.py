@@ -70,7 +70,7 @@ def simplify(
     left = rounds
     while left and best.size > max(smallest, SMALLEST_KNOTTED):
         # Onward from where the last round ended, of the same size as the best but not the best.
-        there = walked_down(_stirred(here, patience, generator))
+        there = walked_down(stirred(here, generator, patience=patience))
         if there.size <= here.size:
             here = there
         if here.size < best.size:
@@ -80,8 +80,15 @@ def simplify(
     return best if best.size < diagram.size else diagram
 
 
-def _stirred(diagram: GridDiagram, patience: int, generator: random.Random) -> GridDiagram:
-    """The diagram stabilised at random marks, and after a walk that contracts nothing."""
+def stirred(diagram: GridDiagram, generator: random.Random, *, patience: int = 200) -> GridDiagram:
+    """The diagram stabilised at random marks, and after a walk that contracts nothing.
+
+    Examples
+    --------
+    >>> from knotopt.diagram.families import torus_knot
+    >>> stirred(torus_knot(2, 3), random.Random(1)).size
+    7
+    """
     for _ in range(STABILISATIONS):
         column, row = generator.choice(diagram.marks)
         diagram = stabilise(diagram, column, row, generator.choice(get_args(Corner)))

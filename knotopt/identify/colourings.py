@@ -11,6 +11,7 @@ doi:10.2140/pjm.2007.231.305.
 
 from __future__ import annotations
 
+import random
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -22,8 +23,10 @@ from knotopt.planar.planar_diagram import PlanarDiagram
 
 Colours = NDArray[np.int16]
 
-MOST_COLOURINGS = 1_200_000
+MOST_COLOURINGS = 3_000_000
 """Colours of the strands that determine all others: more choices are not tried."""
+WEIGHT = -1  # no strand's number: in its place, how many colourings each one stands for
+DRAWN = 2000  # fours of strands, until one determines all others
 
 
 def colouring_polynomial(
@@ -31,7 +34,9 @@ def colouring_polynomial(
 ) -> tuple[int, ...] | None:
     """How often the longitude is which element of the group, over all colourings.
 
-    The same for both orientations of the knot.
+    Elements are counted up to conjugation by what commutes with the colour at the starting point,
+    which takes colourings to colourings; so the second colour need only be one of each orbit. The
+    result is the same for both orientations of the knot.
 
     Parameters
     ----------
@@ -44,18 +49,23 @@ def colouring_polynomial(
     Returns
     -------
     tuple of int, length of the group's order
-        By the element's place in the group. None if more choices were to be tried.
+        By the place in the group of an orbit's first element. None if more would be tried.
     """
     strands = Wirtinger.of(planar)
     size, count = len(colours.conjugates), len(strands.over)
     seeds = strands.seeds()
-    if size ** (len(seeds) - 1) > most:
+    firsts, lengths = colours.orbits
+    if len(firsts) * size ** max(len(seeds) - 2, 0) > most:
         return None
-    known = {seeds[0]: np.zeros(1, dtype=np.int16)} if seeds else {}
-    for seed in seeds[1:]:
-        width = len(known[seeds[0]])
-        known = {strand: np.repeat(colour, size) for strand, colour in known.items()}
-        known[seed] = np.tile(np.arange(size, dtype=np.int16), width)
+    known = {seed: np.zeros(1, dtype=np.int16) for seed in seeds[:1]}
+    known[WEIGHT] = np.ones(1, dtype=np.int16)
+    for number, seed in enumerate(seeds[1:]):
+        chosen = firsts if number == 0 else np.arange(size, dtype=np.int16)
+        width = len(known[WEIGHT])
+        known = {strand: np.repeat(colour, len(chosen)) for strand, colour in known.items()}
+        known[seed] = np.tile(chosen, width)
+        if number == 0:
+            known[WEIGHT] = lengths
     checked: set[int] = set()
     while len(checked) < count:
         for k in set(range(count)) - checked:
@@ -111,12 +121,19 @@ class Wirtinger:
         )
 
     def seeds(self) -> tuple[int, ...]:
-        """Few strands whose colours determine all others: as few as can be, up to three."""
+        """Few strands whose colours determine all others: as few as can be up to three, then four
+        if some are met by chance.
+        """
         strands = range(len(self.over))
         for size in range(4):
             for chosen in combinations(strands, size):
                 if len(self._order(chosen)) == len(strands):
                     return chosen
+        generator = random.Random(0)
+        for _ in range(DRAWN):
+            drawn = tuple(sorted(generator.sample(strands, 4)))
+            if len(self._order(drawn)) == len(strands):
+                return drawn
         seeds: tuple[int, ...] = (0,)
         while len(known := self._order(seeds)) < len(strands):
             more = [(*seeds, strand) for strand in strands if strand not in known]
@@ -145,17 +162,16 @@ def _longitudes(
     strands: Wirtinger, colours: ConjugacyClass, known: dict[int, Colours], start: int
 ) -> tuple[int, ...]:
     """How often the longitude from the start of a strand is which element."""
-    count = len(strands.over)
-    width = len(known[start]) if known else 1
-    element = np.full(width, colours.identity, dtype=np.int16)
+    count, weights = len(strands.over), known[WEIGHT]
+    element = np.full(len(weights), colours.identity, dtype=np.int16)
     for k in (*range(start, count), *range(start)):
         ways = (colours.products, colours.inverse_products)[:: strands.signs[k]]
         element = ways[0][element, known[strands.over[k]]]
     writhe = sum(strands.signs)
     for _ in range(abs(writhe)):  # a longitude winds no times round the knot
         element = (colours.inverse_products if writhe > 0 else colours.products)[element, 0]
-    both = (
-        np.bincount(each, minlength=len(colours.products))
+    order = len(colours.products)
+    return min(
+        tuple(np.bincount(colours.first_of_orbit[each], weights, order).astype(int).tolist())
         for each in (element, colours.reversal[element])
     )
-    return min(tuple(counts.tolist()) for counts in both)

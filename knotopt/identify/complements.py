@@ -27,6 +27,21 @@ def require() -> None:
     require_extra("snappy", "snappy", "a proof by isometry of complements")
 
 
+def is_unknot(planar: PlanarDiagram) -> bool:
+    """Whether knot Floer homology has rank 1, which it has for the unknot alone.
+
+    Source: Ozsvath and Szabo, "Holomorphic disks and genus bounds", doi:10.2140/gt.2004.8.311.
+
+    Examples
+    --------
+    >>> is_unknot(PlanarDiagram(((0, 4, 1, 3), (2, 0, 3, 5), (4, 2, 5, 1))))
+    False
+    """
+    link = _link(planar)
+    link.simplify("basic")  # kinks are refused
+    return not link.crossings or link.knot_floer_homology()["total_rank"] == 1
+
+
 def are_isometric(planar: PlanarDiagram, other: PlanarDiagram) -> bool:
     """Whether SnapPy finds an isometry of the complements that keeps the orientation.
 
@@ -52,6 +67,10 @@ def are_isometric(planar: PlanarDiagram, other: PlanarDiagram) -> bool:
 
 
 def _complement(planar: PlanarDiagram) -> Any:
+    return _link(planar).exterior()
+
+
+def _link(planar: PlanarDiagram) -> Any:
     import snappy
 
-    return snappy.Link([list(crossing) for crossing in planar.crossings]).exterior()
+    return snappy.Link([list(crossing) for crossing in planar.crossings])

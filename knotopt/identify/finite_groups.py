@@ -34,6 +34,10 @@ class ConjugacyClass:
         Where an element l goes that commutes with x, if the knot is run through backwards: to
         g l^-1 g^-1, where g x g^-1 = x^-1. If no g does that, it stays: in the groups here an
         automorphism then takes x to its inverse, and all that commutes with x are its powers.
+    first_of_orbit : Table, shape (n,)
+        Of each element the first among its conjugates by elements that commute with x.
+    orbits : Table, shape (2, k)
+        Of the class's elements likewise: the first of each orbit, in the class, and its length.
     """
 
     conjugates: Table
@@ -42,6 +46,8 @@ class ConjugacyClass:
     inverse_products: Table
     identity: int
     reversal: Table
+    first_of_orbit: Table
+    orbits: Table
 
 
 @cache
@@ -114,6 +120,9 @@ def _classes(products: Table) -> tuple[ConjugacyClass, ...]:
         place[members] = everything[: len(members)]
         back = inverses[members]
         turns = np.flatnonzero(of_first == inverses[first])
+        commuting = np.flatnonzero(of_first == first)
+        moved = products[products[inverses[commuting]], commuting[:, None]]
+        first_of_orbit = moved.min(axis=0)
         found.append(
             ConjugacyClass(
                 place[products[products[np.ix_(back, members)], members[:, None]]],
@@ -124,6 +133,13 @@ def _classes(products: Table) -> tuple[ConjugacyClass, ...]:
                 products[products[turns[0], inverses], inverses[turns[0]]]
                 if turns.size
                 else everything,
+                first_of_orbit,
+                _orbits(place[first_of_orbit[members]]),
             )
         )
     return tuple(sorted(found, key=lambda each: len(each.conjugates)))
+
+
+def _orbits(firsts: Table) -> Table:
+    """The different entries, and how often each occurs."""
+    return np.array(np.unique(firsts, return_counts=True), dtype=np.int16)

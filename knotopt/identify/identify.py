@@ -55,7 +55,7 @@ class Identified:
     grid : GridDiagram
         The simplified diagram.
     crossings : int
-        Of its planar diagram, without those that a summand of an unknot has.
+        Of the planar diagram compared, without those that a summand of an unknot has.
     """
 
     candidates: tuple[str, ...]
@@ -73,12 +73,21 @@ class Identified:
         return self.candidates[0] if len(self.candidates) == 1 else None
 
 
-def identify(diagram: GridDiagram, *, prove: bool = False, seed: int = 0) -> Identified:
+def identify(
+    diagram: GridDiagram,
+    *,
+    planar: PlanarDiagram | None = None,
+    prove: bool = False,
+    seed: int = 0,
+) -> Identified:
     """Name the knot of a grid diagram.
 
     Parameters
     ----------
     diagram : GridDiagram
+    planar : PlanarDiagram, optional
+        Another diagram of the same knot, such as that of the code it was drawn from: taken instead
+        of the simplified grid's if it has fewer crossings.
     prove : bool
         Have SnapPy compare complements even if one candidate is left; of several, it compares them
         wherever it is installed.
@@ -112,7 +121,9 @@ def identify(diagram: GridDiagram, *, prove: bool = False, seed: int = 0) -> Ide
     if prove:
         complements.require()
     grid = simplify(diagram, seed=seed)
-    planar = planar_diagram(grid)
+    drawn = planar_diagram(grid)
+    if planar is None or len(planar.crossings) > len(drawn.crossings):
+        planar = drawn
     if grid.size == 2:
         parts = [_Compared([KnotSum(())], ("grid of size 2",), True, 0)]
     else:
@@ -157,18 +168,27 @@ def _compare(planar: PlanarDiagram, *, prove: bool) -> _Compared:
     if left:
         left = _coloured_alike(left, planar, ALWAYS)
         by.append("colouring polynomials")
-    same = []
+    same: list[KnotSum] = []
     if (prove and left) or (len(left) > 1 and complements.is_installed()):
-        same = [knot for knot in left if complements.are_isometric(planar, knot.planar)]
-    if same:
-        left = same
-        by.append("isometry of complements")
+        same, how = _proven(left, planar)
+        by += [how] if same else []
+    left = same or left
     for group, classes in IF_NEEDED.items():
         if len(left) > 1:
             left = _coloured_alike(left, planar, {group: classes})
     crossings = len(planar.crossings)
     complete = len(left) == 1 and crossings <= crossings_in_table()
     return _Compared(left, tuple(by), bool(same) or complete, crossings)
+
+
+def _proven(knots: list[KnotSum], planar: PlanarDiagram) -> tuple[list[KnotSum], str]:
+    """Those of the knots that SnapPy proves it to be, and by what."""
+    unknot = KnotSum(())
+    if unknot in knots and complements.is_unknot(planar):
+        return [unknot], "knot Floer homology"
+    same = [knot for knot in knots if knot != unknot]
+    same = [knot for knot in same if complements.are_isometric(planar, knot.planar)]
+    return same, "isometry of complements"
 
 
 def _coloured_alike(knots: list[KnotSum], planar: PlanarDiagram, groups: Groups) -> list[KnotSum]:

@@ -101,7 +101,9 @@ def knots_with(alexander: Coefficients, signature: int) -> list[KnotSum]:
     ['8_20', 'm8_20', '3_1#m3_1']
     """
     found = [KnotSum(())] if alexander == (1,) else []
-    found += [KnotSum((each,)) for knot in _table()[alexander] for each in _both_hands(knot)]
+    found += [
+        KnotSum((each,)) for knot in _table().get(alexander, ()) for each in _both_hands(knot)
+    ]
     for factors in _factorisations(alexander, crossings_in_table(), 0):
         if len(factors) > 1:
             found += _sums(factors)

@@ -146,7 +146,8 @@ def open_view(points: FloatArray) -> View:
         raise CurveError(problem)
     raise CurveError(
         f"the curve is open, and in none of {VIEWS} views do its two ends lie in one face of the "
-        "diagram, where they could be joined: lead them out of the knot, or close the curve"
+        "diagram, where they could be joined: lead them out of the knot, or end with the first "
+        "point again"
     )
 
 

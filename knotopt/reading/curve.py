@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from itertools import dropwhile
 from typing import Any
 
 import numpy as np
@@ -22,11 +23,12 @@ from knotopt.reading.record import Asked, Reading
 
 MOST_POINTS = 100_000  # about ten seconds
 FARTHEST = 1e150  # of coordinates; their squares are still numbers
-CLOSE = 2.0  # times the longest of the other steps: a last step that closes the curve
+CLOSE = 1.5  # times the longest of the other steps: a last step that closes the curve
 
 _SPLIT = re.compile(r"[\s,;|]+")
 _REMARK = re.compile(r"\s*(#|%|//)")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?(nan|inf(inity)?)", re.IGNORECASE)
+_UNIT = re.compile(r"[\[(].*[\])]")
 _LETTERS = re.compile(r"[A-Za-z]{1,4}\d*")
 
 
@@ -39,7 +41,7 @@ def read(content: Content, asked: Asked) -> Reading | None:  # noqa: ARG001
         A row that is no point, a curve that meets itself or is more than one, or an open one whose
         ends cannot be joined.
     """
-    rows = _rows_of_lists(content.value) if content.value is not None else _rows(content.text)
+    rows = _rows_of_lists(content.value) or _rows(content.text)
     if rows is None:
         return None
     points, is_closed = _curve(rows)
@@ -113,15 +115,14 @@ def _rows(text: str) -> Rows | None:
         for number, line in enumerate(text.splitlines(), 1)
         if not _REMARK.match(line)
     ]
-    while lines and not lines[0][1]:
-        lines.pop(0)
+    lines = [*dropwhile(lambda line: not line[1], lines)]
     lines = _without_count(_of_obj(lines))
     blocks = _blocks(lines)
     lines = [line for block in blocks for line in block]
     if len(lines) < 4:
         return None
     columns: tuple[int, ...] | None = None
-    header = [word.lower() for word in lines[0][1]]
+    header = [word.lower() for word in lines[0][1] if not _UNIT.fullmatch(word)]
     if not any(map(_NUMBER.fullmatch, header)):
         columns = _named(header)
         if columns is None and {*"xyz"} & {*header}:
@@ -131,6 +132,8 @@ def _rows(text: str) -> Rows | None:
     width = _usual([len(words) for _, words in lines])
     if columns is None:
         columns = _columns(lines, width)
+    elif len(header) == width - 1 and _is_counted([words[0] for _, words in lines]):
+        columns = tuple(k + 1 for k in columns)  # nothing stands above an index
     if columns is None:
         return None
     rows = []
@@ -213,7 +216,11 @@ def _columns(lines: Sequence[Line], width: int) -> tuple[int, ...] | None:
         return None
     if width == 4:
         firsts = [words[0] for words in alike]
-        counted = [[str(k + start) for k in range(len(alike))] for start in (0, 1)]
-        if firsts not in counted and not all(map(_LETTERS.fullmatch, firsts)):
+        if not _is_counted(firsts) and not all(map(_LETTERS.fullmatch, firsts)):
             return None
     return tuple(range(width - 3, width))
+
+
+def _is_counted(words: Sequence[str]) -> bool:
+    """Whether they count the lines from 0 or 1."""
+    return any(list(words) == [str(k + start) for k in range(len(words))] for start in (0, 1))

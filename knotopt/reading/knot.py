@@ -6,15 +6,18 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from knotopt.diagram.families import MAX_SIZE
 from knotopt.diagram.grid import GridDiagram
-from knotopt.errors import FileFormatError, KnotoptError
+from knotopt.errors import FileFormatError, GridError, KnotoptError
 from knotopt.planar.planar_diagram import PlanarDiagram
 from knotopt.planar.small_grid import small_grid
 from knotopt.reading import xo
+from knotopt.reading.codes import check_crossings
 from knotopt.reading.content import Content
 from knotopt.reading.forms import FORMS, Form
 from knotopt.reading.lists import Lists
 from knotopt.reading.miss import miss
+from knotopt.reading.names import mirror_name
 from knotopt.reading.over import COLUMNS, ROWS
 from knotopt.reading.record import Asked, NamedDiagram, Reading
 from knotopt.reading.source import Source, read_source
@@ -58,10 +61,10 @@ def read_knot(
     >>> found = read_knot("[[0, -1, 1], [1, 0, -1], [-1, 1, 0]]")
     >>> found.name, found.source, found.diagram.size
     ('matrix', 'as given', 3)
-    >>> read_knot("8_22")  # doctest: +ELLIPSIS
+    >>> read_knot("8_22")
     Traceback (most recent call last):
     ...
-    knotopt.errors.UnknownKnotError: no knot is named '8_22'; nearest: 8_2, ...
+    knotopt.errors.UnknownKnotError: no knot is named '8_22'; KnotInfo has 8_1 to 8_21
     """
     asked = Asked(_checked_over(over), form)
     only = _form_named(form)
@@ -101,7 +104,7 @@ def _read(content: Content, asked: Asked, only: Form | None) -> tuple[Reading, s
     if content.key and len(forms) == 1:
         raise FileFormatError(f'the key "{content.key}" holds no {forms[0].title}')
     if only is not None:
-        raise FileFormatError(f"this cannot be read as {only.title}")
+        raise FileFormatError(f"this cannot be read as {only.name} ({only.title})")
     raise miss(content)
 
 
@@ -122,7 +125,10 @@ def _finished(found: Reading, title: str, source: Source, *, mirror: bool) -> Na
     """The record of what was read: drawn on a grid if it is not one, mirrored if asked."""
     diagram = found.diagram
     if isinstance(diagram, PlanarDiagram):
+        check_crossings(len(diagram.crossings))
         diagram = small_grid(diagram)
+    if diagram.size > MAX_SIZE:
+        raise GridError(f"a grid of size {diagram.size}; up to {MAX_SIZE} are read")
     named = NamedDiagram(
         found.name or source.name or title,
         diagram,
@@ -131,19 +137,18 @@ def _finished(found: Reading, title: str, source: Source, *, mirror: bool) -> Na
         title,
         tuple(found.notes),
         found.ambiguous,
+        found.diagram if isinstance(found.diagram, PlanarDiagram) else None,
     )
-    return _mirrored(named, is_name=found.name is not None) if mirror else named
+    return _mirrored(named) if mirror else named
 
 
-def _mirrored(named: NamedDiagram, *, is_name: bool = True) -> NamedDiagram:
+def _mirrored(named: NamedDiagram) -> NamedDiagram:
     """The mirror image, and so called if the knot has a name of its own."""
-    name = named.name
-    if is_name:
-        name = name[1:] if name.startswith("m") else f"m{name}"
     return replace(
         named,
-        name=name,
+        name=mirror_name(named.name) if named.form == "name" else named.name,
         diagram=named.diagram.mirrored,
+        planar=named.planar and named.planar.mirrored,
         prime_knot=None,
         notes=(*named.notes, "mirror image, as asked"),
         ambiguous=False,

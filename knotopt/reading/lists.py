@@ -22,6 +22,8 @@ _TOKEN = re.compile(
     r"|(?P<close>[\])}])"
     r"|(?P<is>[:=])"
 )
+_BRACKETS = str.maketrans("(){};", "[][],")
+_LONG = 10_000  # characters, from which on speed counts
 _LONGEST_NUMBER = 30  # digits; Python refuses to read 4,300
 
 
@@ -52,11 +54,24 @@ def parse_lists(text: str) -> Lists | None:
     ([[0, -1], [-1, 0]], {'X': [1, 0]})
     >>> parse_lists("8_19")
     """
-    try:
-        value = json.loads(text)
-    except (ValueError, RecursionError):
-        return _parse(text)
-    return Lists(value)
+    for attempt in (text, _as_json(text)):
+        try:
+            return Lists(json.loads(attempt))
+        except (ValueError, RecursionError):
+            continue
+    return _parse(text)
+
+
+def _as_json(text: str) -> str:
+    """Numbers in any brackets as JSON, which is read a hundred times faster; "" for other text.
+
+    Numbers that JSON has in no such way, as +1 and 1., are left to `_parse`.
+    """
+    if re.search(r"[^-\d.,;\s\[\](){}]", text) or len(text) < _LONG:
+        return ""
+    text = text.translate(_BRACKETS).strip(" \t\r\n,")
+    text = re.sub(r"(?<=[\d\]])\s+(?=[-\d\[])", ",", text)
+    return re.sub(r",\s*\]", "]", text)
 
 
 class _NoListsError(Exception):

@@ -122,7 +122,7 @@ def _mirrored(knot: _Named) -> _Named:
         notes = (*notes, f"{knot.prime_knot.name} is its own mirror image")
     return replace(
         knot,
-        name="#".join(mirror_name(name) for name in knot.name.split("#")),
+        name=mirror_name(knot.name),
         diagram=knot.diagram.mirrored,
         notes=notes,
         prime_knot=None,
@@ -134,9 +134,11 @@ def mirror_name(name: str) -> str:
 
     Examples
     --------
-    >>> mirror_name("3_1"), mirror_name("m3_1"), mirror_name("T(2,-3)")
-    ('m3_1', '3_1', 'T(2,3)')
+    >>> mirror_name("3_1#m4_1"), mirror_name("T(2,-3)")
+    ('m3_1#4_1', 'T(2,3)')
     """
+    if "#" in name:
+        return "#".join(map(mirror_name, name.split("#")))
     torus = re.fullmatch(r"T\((-?\d+),(-?)(\d+)\)", name)
     if torus:
         return f"T({torus[1]},{'' if torus[2] else '-'}{torus[3]})"

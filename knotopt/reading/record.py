@@ -74,6 +74,8 @@ class NamedDiagram(ShownShort):
         Readings chosen: who passes over, from where rows are counted, "up to mirror image".
     ambiguous : bool
         Whether what was read may as well mean the mirror image, and one of the two was chosen.
+    planar : PlanarDiagram or None
+        The diagram that the grid was drawn from, if it was given by a code.
     """
 
     name: str
@@ -83,6 +85,7 @@ class NamedDiagram(ShownShort):
     form: str = "grid"
     notes: tuple[str, ...] = ()
     ambiguous: bool = False
+    planar: PlanarDiagram | None = None
 
     @property
     def in_words(self) -> str:

@@ -17,8 +17,8 @@ from typing import BinaryIO
 
 from knotopt.errors import FileFormatError
 
-MAX_BYTES = 8_000_000
-"""Longest text: a matrix of size 2,000, or the marks of the largest grid."""
+MAX_BYTES = 4_000_000
+"""Longest text: a matrix of size 1,000, or the marks of the largest grid."""
 
 LONGEST_PATH = 4096
 

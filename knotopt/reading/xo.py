@@ -114,18 +114,19 @@ def _in_a_table(content: Content) -> tuple[GridDiagram, str] | None:
     if lines is None:
         return None
     size = len(lines)
+    rows: dict[str, list[int]] = {mark: [0] * size for mark in "XO"}  # of each column's mark
     for number, line in enumerate(lines, 1):
-        for mark in "XO":
+        for mark, found in rows.items():
             if line.count(mark) != 1:
                 raise GridError(f"line {number} has {line.count(mark)} {mark}, expected one")
-        if max(line.index("X"), line.index("O")) >= size:
-            raise GridError(
-                f"line {number} has a mark beyond column {size}, but there are {size} rows"
-            )
-    matrix = [
-        [{"X": -1, "O": 1}.get(mark, 0) for mark in [*line, *[""] * size][:size]] for line in lines
-    ]
-    return GridDiagram.from_matrix(matrix), "the first line is the top row"
+            column = line.index(mark) + 1
+            if column > size:
+                raise GridError(f"line {number} has {mark} in column {column}, of {size} lines")
+            if found[column - 1]:
+                first = size + 1 - found[column - 1]
+                raise GridError(f"lines {first} and {number} have {mark} in column {column}")
+            found[column - 1] = size + 1 - number
+    return GridDiagram(tuple(rows["X"]), tuple(rows["O"])), "the first line is the top row"
 
 
 def _lines(content: Content) -> list[list[str]] | None:

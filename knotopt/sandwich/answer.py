@@ -26,6 +26,9 @@ from knotopt.supports.search import best_supports
 BUDGET = Budget(seconds=2.0)
 """Of the search for a grid on which the safe set is small."""
 
+LARGEST_SAFE = 26
+"""Grid size above which formulation `span` takes minutes."""
+
 
 @dataclass(frozen=True)
 class Answer:
@@ -41,8 +44,9 @@ class Answer:
         Whatever its diagram.
     laid : MinimalSupports
         The least to lay the diagram asked about with straight spans, over its cuts (`loops`).
-    safe_search : DiagramSearch
-        For the smallest safe set (`span` with loops), over grids of the knot.
+    safe_search : DiagramSearch or None
+        For the smallest safe set (`span` with loops), over grids of the knot; None where the
+        smallest grid at hand is larger than `LARGEST_SAFE`.
     lcf : LcfResult
         The heuristic's set, on the diagram asked about.
     seed : int
@@ -52,13 +56,15 @@ class Answer:
     identified: Identified
     known: KnownOfKnot
     laid: MinimalSupports
-    safe_search: DiagramSearch
+    safe_search: DiagramSearch | None
     lcf: LcfResult
     seed: int
 
     @property
-    def safe(self) -> MinimalSupports:
-        """The smallest safe set found, on the grid on which it is."""
+    def safe(self) -> MinimalSupports | None:
+        """The smallest safe set found, on the grid on which it is; None if none was."""
+        if self.safe_search is None or not self.safe_search.best.best.found:
+            return None
         return self.safe_search.best.best
 
     @property
@@ -110,15 +116,18 @@ def answer(
     identified = identify(named.diagram, seed=seed)
     known = known_of_knot(identified.candidates, identified.invariants.alexander or ())
     laid = best_supports(named.diagram, Requirements("loops"), limits=limits).best
-    safe = find_diagram(
-        named.diagram,
-        Requirements("span", openness, with_loops=True),
-        budget,
-        seed,
-        starts=_grids_at_hand(identified),
-        solver=solver,
-        limits=limits,
-    )
+    start = min(named.diagram, identified.grid, key=lambda grid: grid.size)
+    safe = None
+    if start.size <= LARGEST_SAFE:
+        safe = find_diagram(
+            start,
+            Requirements("span", openness, with_loops=True),
+            budget,
+            seed,
+            starts=_grids_at_hand(identified),
+            solver=solver,
+            limits=limits,
+        )
     return Answer(named, identified, known, laid, safe, best_cut(named.diagram), seed)
 
 

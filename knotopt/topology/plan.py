@@ -18,6 +18,7 @@ from functools import cached_property
 from itertools import islice
 from typing import TYPE_CHECKING
 
+from knotopt.errors import KnotoptError
 from knotopt.showing import ShownShort, plural
 from knotopt.topology.actions import Action, sort_key
 from knotopt.topology.legal import R2Rule
@@ -28,6 +29,14 @@ if TYPE_CHECKING:
     import networkx as nx
 
 Steps = dict[RopeState, list[tuple[Action, RopeState]]]
+
+
+MOST_STATES = 200_000
+"""Of a graph of plans: of 178 crossings each, a minute of work and two gigabytes."""
+
+
+class PlanError(KnotoptError):
+    """A goal whose plans are too many to find."""
 
 
 @dataclass(frozen=True)
@@ -177,6 +186,11 @@ def plan_graph(
         Keep only the plans with the fewest actions to their goal. Every plan makes just its goal's
         crossings, but R2 makes two at once, so plans with it are shorter.
 
+    Raises
+    ------
+    PlanError
+        The plans pass through more than `MOST_STATES` states.
+
     Notes
     -----
     Every state can be reached from the trivial one by R1 and C: take back either end, crossing by
@@ -206,6 +220,11 @@ def _leading_to(goals: tuple[RopeState, ...], start: RopeState, rule: R2Rule) ->
             continue
         for action, earlier in predecessors(state, rule):
             if earlier not in steps:
+                if len(steps) >= MOST_STATES:
+                    raise PlanError(
+                        f"the ways to this goal of {goals[0].crossings} crossings pass through "
+                        f"more than {MOST_STATES} states; a simpler diagram of the knot has fewer"
+                    )
                 steps[earlier] = []
                 open_states.append(earlier)
             steps[earlier].append((action, state))

@@ -29,6 +29,16 @@ def test_a_form_without_chirality_is_up_to_mirror(cli: Cli) -> None:
     assert cli.json("identify", "trefoil")["up_to_mirror_image"] is True
 
 
+def test_a_code_of_few_crossings_is_compared_as_it_is(cli: Cli) -> None:
+    code = "PD[X[1,4,2,5], X[3,8,4,9], X[9,12,10,13], X[13,17,14,16], X[5,15,6,14], X[15,7,16,6], "
+    code += "X[11,18,12,1], X[17,10,18,11], X[7,2,8,3]]"
+    found = cli.json("identify", code)
+    assert found["crossings"] == 9 and found["proven"] is True
+    mirror = cli.json("identify", code, "--mirror")
+    assert mirror["identified"].removeprefix("m") == found["identified"].removeprefix("m")
+    assert mirror["identified"] != found["identified"]
+
+
 def test_the_unknot_and_a_knot_in_no_table(cli: Cli) -> None:
     _, out, _ = cli("identify", "unknot")
     assert "0_1, by grid of size 2" in out and "proven         yes" in out

@@ -148,7 +148,7 @@ def test_pictures_without_matplotlib(cli: Cli) -> None:
 @pytest.mark.parametrize(
     ("arguments", "status", "words"),
     [
-        (("granny",), 1, "no knot is named 'granny'"),
+        (("grammy",), 1, "no knot is named 'grammy'"),
         (("T(2,4)",), 1, "is a link of 2 components"),
         (("U1+ O2+ U1+ O2+",), 1, "visits 1 and 3 of one crossing are both under"),
         (("O1+ O2+ U1+ U2+",), 1, "visit 4: a rope in the plane cannot come back to visit 2"),

@@ -28,11 +28,11 @@ def of_knotinfo(row: dict[str, str]) -> Polynomial:
 
 
 @pytest.mark.slow
-def test_every_knot_of_knotinfo() -> None:
+def test_every_third_knot_of_knotinfo() -> None:
     from database_knotinfo import link_list
 
     _, _, *rows = link_list()
-    for row in rows:
+    for row in rows[::3]:
         planar = PlanarDiagram.from_edges(json.loads(row["pd_notation"]))
         assert jones_polynomial(planar) == of_knotinfo(row), row["name"]
 

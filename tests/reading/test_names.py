@@ -111,6 +111,13 @@ def test_mirror_images_and_sums_by_invariants() -> None:
     assert square == (1, -2, 3, -2, 1)
 
 
+def test_mirror_images_by_the_option() -> None:
+    assert read_knot("3_1#m4_1", mirror=True).name == "m3_1#4_1"
+    assert read_knot("T(2,3)", mirror=True).name == "T(2,-3)"
+    code = read_knot("[[1,5,2,4],[3,1,4,6],[5,3,6,2]]", mirror=True)
+    assert code.name == "PD code" and code.planar is not None and code.planar.writhe == -3
+
+
 def test_the_trefoil_s_hands() -> None:
     assert signature_of(read_knot("right-handed trefoil").diagram) == -2
     assert signature_of(read_knot("left-handed trefoil").diagram) == 2

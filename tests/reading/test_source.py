@@ -56,14 +56,14 @@ def test_standard_input(monkeypatch: pytest.MonkeyPatch, content: str) -> None:
 
 
 def test_what_is_too_long_is_refused_at_once(tmp_path: Path) -> None:
-    with pytest.raises(FileFormatError, match="/dev/zero is longer than 8 MB"):
+    with pytest.raises(FileFormatError, match="/dev/zero is longer than 4 MB"):
         read_knot("/dev/zero")
-    with pytest.raises(FileFormatError, match="the text is longer than 8 MB"):
+    with pytest.raises(FileFormatError, match="the text is longer than 4 MB"):
         read_knot(" " * (MAX_BYTES + 1))
     path = tmp_path / "large"
     with path.open("wb") as stream:
         stream.truncate(10**12)  # takes no room on the disk
-    with pytest.raises(FileFormatError, match="large is longer than 8 MB"):
+    with pytest.raises(FileFormatError, match="large is longer than 4 MB"):
         read_knot(path)
 
 

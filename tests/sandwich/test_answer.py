@@ -39,6 +39,7 @@ def test_each_number_by_another_way(found: Answer) -> None:
     )
     assert found.laid.robots == fewest
     safe = found.safe
+    assert safe is not None
     check = DEFINITIONS["span"].checker(with_loops=True)
     asked = safe.requirements
     report = check(
