@@ -109,7 +109,7 @@ def answer(
     >>> from knotopt.reading.knot import read_knot
     >>> found = answer(read_knot("3"), budget=Budget(grids=1000))
     >>> found.known.needed.robots, found.laid.robots, found.known.flown.robots, found.safe.robots
-    (3, 3, 3, 5)
+    (3, 3, 3, 4)
     >>> found.lcf.robots, found.baseline, found.is_settled
     (5, 10, True)
     """

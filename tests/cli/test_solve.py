@@ -56,7 +56,8 @@ def test_solve_over_cuts_sets_and_diagrams(cli: Cli) -> None:
 
 def test_solve_over_diagrams(cli: Cli) -> None:
     cli.monkeypatch.setattr(diagram_search, "LOOKED_PER_SOLVED", 5000)
-    command = ("solve", "7 Var1", "--diagrams", "--budget", "60_000", "--seed", "1")
+    searched = ("--diagrams", "--budget", "60_000", "--seed", "1")
+    command = ("solve", "7 Var1", "--formulation", "opening", *searched)
     content = cli.json(*command)
     assert content["robots_after"] < 12 and content["proven"] and content["checked_open"]
     assert content["diagrams_tried"] >= 60_000 and content["diagrams_solved"] == 12

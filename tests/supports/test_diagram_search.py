@@ -113,14 +113,12 @@ def test_a_knot_that_cannot_be_met_by_any_grid() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("row", "most"), [("3", 6), ("4", 5), ("5", 6), ("7 Var1", 6), ("7 Var2", 6), ("9", 5)]
-)
+@pytest.mark.parametrize(("row", "most"), [("3", 6), ("5", 6), ("7 Var2", 6)])
 def test_safe_sets_of_table_1(row: str, most: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A few dozen grids solved give what is stored for the knot, or nearly."""
+    """A few dozen grids solved give what is stored for the knot, or nearly; 7, 9 and 11 before."""
     monkeypatch.undo()
     diagram = read_knot(row).diagram
-    found = find_diagram(diagram, Requirements("span", 0.5), solved(40))
+    found = find_diagram(diagram, Requirements("span", 0.5), solved(30))
     best = found.best.best
     assert best.is_proven and best.robots <= most
     polynomials = {alexander_polynomial(Cable(d, "L+")) for d in (diagram, best.cable.diagram)}
