@@ -177,9 +177,10 @@ def solve(
             as_json=as_json,
         )
         return
-    check_openness(formulation or LOOPS, r)
+    named_or_loops = LOOPS if formulation is None else formulation
+    check_openness(named_or_loops, r)
     asked = Requirements(
-        formulation or LOOPS,
+        named_or_loops,
         r,
         threading,
         with_loops=with_loops(with_),

@@ -56,7 +56,10 @@ def test_where_no_picture_can_be_is_said_before_work(
         (("topology", "3_1", "--plans", "99999999999999999999"), "'--plans'"),
         (("atlas", "run", "3", "--scheduler", ""), "is an address such as tcp://host:8786, not ''"),
         (("solve", "3", "--threads", "99999999999999999999"), "threads is at most 1024"),
-        (("solve", "3", "--max-robots", "99999999999999999999"), "at most 1000000 robots"),
+        (
+            ("solve", "3", "--formulation", "opening", "--max-robots", "99999999999999999999"),
+            "at most 1000000 robots",
+        ),
         (("path", "3", "--slope", "1e300"), "slope is at most 1000, not 1e+300"),
         (("prove", "3", "--out", ""), "cannot write .: that is a folder"),
     ],

@@ -38,8 +38,7 @@ def test_the_larger_diagram_is_one() -> None:
 def test_two_robots_and_nothing_to_hold_open(cli: Cli, name: str) -> None:
     for command in (("lcf",), ("solve",), ("solve", "--formulation", "span"), ("fly",)):
         status, out, _ = cli(command[0], name, *command[1:])
-        assert status == 0 and "2 robots" in out
-        assert "supports: none: nothing to hold open" in out
+        assert status == 0 and "2 robots" in out and "nothing to hold open" in out
 
 
 def test_show(cli: Cli, knot: str | Path, tmp_path: Path) -> None:
