@@ -34,6 +34,8 @@ from benchmarks import (  # noqa: F401 -- they register themselves
     paths_stiffness,
     paths_tradeoff,
     physics,
+    physics_fewest,
+    physics_safe,
     physics_subsets,
     physics_tight,
     solvers,
@@ -121,6 +123,14 @@ def record() -> None:
     for benchmark, why in left_out.items():
         print(f"left out: {benchmark}, {why}")
     print(f"kept: {len(kept.figures)} figures of version {kept.version}")
+
+
+@app.command()
+def flown() -> None:
+    """Write the catalogue of the smallest teams that fly, from the stored flights."""
+    from benchmarks.flown import write_catalogue
+
+    print(f"written: {write_catalogue()}")
 
 
 def _named(names: list[str] | None) -> list[Benchmark]:

@@ -24,7 +24,7 @@ from knotopt.flight.request import FlightRequest
 from knotopt.mission.alternatives import PASSED, rehearse_first
 from knotopt.reading.knot import read_knot
 from knotopt.rehearsal.flown_set import FlownSet
-from knotopt.sim.trials import fly_trial, fly_trials
+from knotopt.sim.trials import Flight, fly_trial, fly_trials
 from knotopt.supports.by_size import optimal_sets
 from knotopt.supports.minimal import MinimalSupports
 from knotopt.supports.requirements import Requirements
@@ -113,9 +113,15 @@ def measure(case: Case) -> Result:
     """The same of the first cut whose set, as small as the best cut's, ties with robots apart."""
     if case["method"] in ("none", "random"):
         return measure_set(case)
-    choice, requirements = METHODS[case["method"]]
-    sets = equally_small(read_knot(case["row"]).diagram, choice, requirements=requirements)
-    return _measured(case["row"], tuple(sets))
+    return measure_first(case["row"], *METHODS[case["method"]])
+
+
+def measure_first(
+    name: str, choice: str, requirements: Requirements | None, seeds: Iterable[int] = SEEDS
+) -> Result:
+    """The same for any choice of supports."""
+    sets = equally_small(read_knot(name).diagram, choice, requirements=requirements)
+    return _measured(name, tuple(sets), seeds)
 
 
 def rehearse(name: str, sets: Iterable[SupportSet]) -> FlownSet:
@@ -123,7 +129,7 @@ def rehearse(name: str, sets: Iterable[SupportSet]) -> FlownSet:
     return rehearse_first(sets, FlightRequest(name, "file"), attempts=ATTEMPTS)
 
 
-def _measured(name: str, sets: tuple[SupportSet, ...]) -> Result:
+def _measured(name: str, sets: tuple[SupportSet, ...], seeds: Iterable[int] = SEEDS) -> Result:
     started = time.perf_counter()
     try:
         if sets[0].supports:
@@ -137,11 +143,21 @@ def _measured(name: str, sets: tuple[SupportSet, ...]) -> Result:
         return {**about, "planned": False, "why": str(error)}
     about = _about(plan.cable, plan.supports, 1 + sum(PASSED in note for note in plan.notes))
     planned = time.perf_counter() - started
-    flights = fly_trials(plan, [Disturbance(noise=NOISE, seed=seed) for seed in SEEDS])
-    lost = next((each for each in (trial, *flights) if not each.is_tied), None)
     return {
         **about,
         "planned": True,
+        **measure_flown(trial, seeds),
+        "rehearsals": rehearsals,
+        "planning_seconds": round(planned, 2),
+    }
+
+
+def measure_flown(trial: Flight, seeds: Iterable[int]) -> Result:
+    """What an undisturbed flight came to, and flights of its plan with noise of these seeds."""
+    plan = trial.plan
+    flights = fly_trials(plan, [Disturbance(noise=NOISE, seed=seed) for seed in seeds])
+    lost = next((each for each in (trial, *flights) if not each.is_tied), None)
+    return {
         "undisturbed": str(trial.verdict),
         "tied": trial.is_tied,
         "disturbed": [str(each.verdict) for each in flights],
@@ -149,8 +165,6 @@ def _measured(name: str, sets: tuple[SupportSet, ...]) -> Result:
         "first_amiss": lost.amiss if lost else "",
         "schedule": plan.schedule,
         "flight_seconds": round(plan.duration, 2),
-        "rehearsals": rehearsals,
-        "planning_seconds": round(planned, 2),
         "simulation_seconds": round(trial.record.seconds, 3),
         "smallest_distance": round(trial.record.smallest_distance, 4),
         "largest_tension": round(trial.record.largest_tension, 3),

@@ -101,7 +101,8 @@ def plan(
     cut : str
         A cut's name, or "best": where its flight fails, other cuts with sets as small are tried.
     requirements : Requirements, optional
-        Of the smallest set; by default `span` with an openness of a quarter of a grid step.
+        Of the smallest set; by default `span` with loops and an openness of a quarter of a grid
+        step.
     world : World
         Metres, heights.
     limits : FlightLimits, optional

@@ -44,7 +44,8 @@ ALLOWED: Mapping[str, str] = {
     "path": "showing formulations errors arrays ranges cable topology verify supports",
     "flight": "showing formulations errors arrays ranges diagram cable topology verify supports "
     "path",
-    "laid": "formulations errors diagram planar cable supports path flight",
+    "laid": "formulations errors arrays diagram planar cable supports path flight",
+    "sandwich": "formulations diagram catalogue identify reading search supports laid",
     "sim": "errors arrays ranges diagram cable catalogue verify flight",
     "rehearsal": "formulations errors arrays ranges diagram cable supports path flight sim",
     # What is made of the results.
@@ -52,13 +53,14 @@ ALLOWED: Mapping[str, str] = {
     "viewer": "errors arrays document supports flight",
     "plot": "errors arrays files diagram cable topology reading supports path flight viewer",
     "mission": "errors ranges verify supports flight sim rehearsal export viewer plot",
-    "tables": "formulations files document diagram cable catalogue supports path plot",
+    "tables": "formulations files document diagram cable catalogue identify supports path plot "
+    "sandwich",
     "atlas": "formulations knotopt errors arrays files frames document diagram cable catalogue "
     "reading verify supports flight sim plot tables",
     "api": "formulations errors diagram cable reading supports path flight mission",
     "cli": "formulations knotopt errors files document diagram planar search cable catalogue "
-    "identify topology reading verify supports path flight laid sim rehearsal plot mission tables "
-    "atlas",
+    "identify topology reading verify supports path flight laid sandwich sim rehearsal plot "
+    "mission tables atlas",
     "__main__": "cli",
     "benchmarks": "formulations errors arrays files document diagram planar search cable catalogue "
     "identify topology reading verify supports path flight laid sim rehearsal plot mission tables "
@@ -70,7 +72,7 @@ BY_NAME = {
     "knotopt": "the public names, when they are first used (lazy_loader)",
     "knotopt.atlas.engine": "distributed, of the extra, where a cluster is asked for",
     "knotopt.cli.app": "a command's module, when the command is asked for",
-    "knotopt.laid.invariants": "packages of extras, where a knot is looked at by them",
+    "knotopt.laid.invariants": "knot Floer homology, of the extra, where it is installed",
     "knotopt.showing": "knotopt.plot.pictures, when a result is asked for its picture",
     "formulations.backends": "a solver's module, when the solver is asked for",
 }

@@ -70,3 +70,17 @@ def stored_grids() -> dict[tuple[str, str], StoredGrid]:
         )
         for entry in entries
     }
+
+
+def stored_grid(knot: str, name: str) -> GridDiagram | None:
+    """The grid of a knot by name, or of its mirror image; None if none is stored.
+
+    Examples
+    --------
+    >>> stored_grid("m8_19", "best4") == stored_grid("8_19", "best4").mirrored
+    True
+    """
+    stored = stored_grids().get((knot.removeprefix("m"), name))
+    if stored is None:
+        return None
+    return stored.diagram.mirrored if knot.startswith("m") else stored.diagram

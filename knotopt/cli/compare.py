@@ -34,7 +34,9 @@ def compare(
     ] = None,
     as_json: options.JsonOption = False,
 ) -> None:
-    """Compare baseline, LCF, LCF layered, opening and span, and paths by both methods.
+    """Compare baseline, LCF, LCF layered, smallest sets, and paths by both methods.
+
+    The smallest sets are of opening, span without loops and with them (safe), and loops.
 
     With --out, a run that is interrupted goes on where it stopped.
     Example: knotopt compare 3 4 5 8_19 'T(3,5)' --out comparison.tex
@@ -56,6 +58,7 @@ def compare(
             named.name,
             named.diagram,
             source=named.source,
+            candidates=[named.prime_knot.name] if named.prime_knot else None,
             openness=openness,
             cuts=None if cut == "best" else [Cut.parse(cut, named.diagram.size)],
             solver=solver,

@@ -12,7 +12,7 @@ import typer
 from knotopt.cli import options
 from knotopt.cli.completion import among
 from knotopt.cli.fly_printing import show_mission
-from knotopt.cli.formulations import WithOption, with_loops
+from knotopt.cli.formulations import WithOption, check_openness, with_loops
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import status_line, track
 from knotopt.cli.reading import read
@@ -37,8 +37,8 @@ def fly(
         str | None,
         options.unless_given(
             str(FLOWN.formulation),
-            "Of the smallest set: span (the taut cable itself, which is what is flown) or opening "
-            "(polygons through the grid's crossings).",
+            "Of the smallest set: span (the taut cable itself, which is what is flown), opening "
+            "(polygons through the grid's crossings) or loops (a support on every loop).",
             metavar="NAME",
             autocompletion=among(("span", "opening")),
         ),
@@ -141,6 +141,7 @@ def fly(
     if supports != "milp":
         for option in options.given(r=r, formulation=formulation, **{"with": with_}):
             options.refuse(f"--{option}", "goes with --supports milp")
+    check_openness(formulation or FLOWN.formulation, r)
     requirements = Requirements(
         FLOWN.formulation if formulation is None else formulation,
         FLOWN.openness if r is None else r,

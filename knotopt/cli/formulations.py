@@ -8,15 +8,21 @@ import typer
 
 from knotopt.cli import options
 from knotopt.cli.completion import among
-from knotopt.supports.registry import FORMULATIONS
+from knotopt.supports.registry import FORMULATIONS, find_formulation
 from knotopt.supports.threading import Threading
 
+_NAMES = " or ".join(f"{each.name} ({each.words})" for each in FORMULATIONS.values())
 FormulationOption = Annotated[
-    str,
+    str, typer.Option(metavar="NAME", autocompletion=among(FORMULATIONS), help=f"{_NAMES}.")
+]
+WhichFormulationOption = Annotated[
+    str | None,
     typer.Option(
+        "--formulation",
         metavar="NAME",
         autocompletion=among(FORMULATIONS),
-        help=" or ".join(f"{each.name} ({each.words})" for each in FORMULATIONS.values()) + ".",
+        help=f"{_NAMES}; by default all that is known of the number of robots is said.",
+        show_default=False,
     ),
 ]
 WITH = {"loops": True, "none": False}
@@ -53,3 +59,9 @@ def with_loops(value: str | None) -> bool | None:
         return None
     options.check_choice("--with", value, WITH)
     return WITH[value]
+
+
+def check_openness(formulation: str, r: float | None) -> None:
+    """Refuse --r where sets do not depend on it."""
+    if r is not None and not find_formulation(formulation).has_openness:
+        options.refuse("--r", f"formulation {formulation} has no openness")

@@ -10,7 +10,7 @@ import typer
 
 from knotopt.cli import options
 from knotopt.cli.completion import among
-from knotopt.cli.formulations import FormulationOption, WithOption, with_loops
+from knotopt.cli.formulations import FormulationOption, WithOption, check_openness, with_loops
 from knotopt.cli.printing import print_facts, print_json, print_note, print_table, print_written
 from knotopt.cli.reading import read
 from knotopt.cli.sizes import check_size
@@ -117,6 +117,7 @@ def path(
     )
     if world is not None:
         asked = world.requirements(asked)
+    check_openness(formulation, r)
     of_the_set = Requirements(formulation, r, with_loops=with_loops(with_))
     limits = options.solver_limits(time_limit)
     named = read(knot)

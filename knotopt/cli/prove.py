@@ -11,7 +11,13 @@ import typer
 
 from knotopt.cli import options
 from knotopt.cli.completion import among
-from knotopt.cli.formulations import FormulationOption, ThreadingOption, WithOption, with_loops
+from knotopt.cli.formulations import (
+    FormulationOption,
+    ThreadingOption,
+    WithOption,
+    check_openness,
+    with_loops,
+)
 from knotopt.cli.printing import print_json, print_note, print_table, print_written
 from knotopt.cli.progress import track
 from knotopt.cli.sizes import check_size
@@ -55,6 +61,7 @@ def prove(
     from knotopt.supports.certificate import prove as prove_knot
     from knotopt.supports.registry import find_formulation
 
+    check_openness(formulation, r)
     asked = Requirements(formulation, r, threading, with_loops=with_loops(with_))
     proofs = find_formulation(formulation).proofs
     if method not in (None, *proofs):

@@ -10,11 +10,18 @@ import typer
 from formulations.backends import DEFAULT
 from formulations.solution import Limits
 from knotopt.cli import options
-from knotopt.cli.formulations import FormulationOption, ThreadingOption, WithOption, with_loops
+from knotopt.cli.formulations import (
+    ThreadingOption,
+    WhichFormulationOption,
+    WithOption,
+    check_openness,
+    with_loops,
+)
 from knotopt.cli.printing import print_json, print_written
 from knotopt.cli.progress import logged_bar, status_line, track
 from knotopt.cli.reading import read
 from knotopt.cli.sizes import check_size
+from knotopt.cli.solve_answer import answer_knot
 from knotopt.cli.solve_diagrams import (
     BudgetOption,
     DiagramsOption,
@@ -39,6 +46,7 @@ from knotopt.cli.solve_printing import (
     show_search,
     show_sets,
 )
+from knotopt.supports.registry import FORMULATIONS
 from knotopt.supports.requirements import Requirements
 
 if TYPE_CHECKING:
@@ -48,12 +56,19 @@ if TYPE_CHECKING:
     from knotopt.supports.minimal import MinimalSupports
     from knotopt.supports.search import CutSearch
 
+_OF_THE_ANSWER = {
+    *("knot", "over", "mirror", "read_as", "budget", "seed", "solver", "time_limit", "threads"),
+    *("plot", "as_json", "verbose", "log"),
+}
+"""The parameters that go with the answer over all formulations."""
+LOOPS = "loops"  # what diagrams are searched for unless another formulation is named
 MOST_SETS = 1000  # that --all lists, unless another number is given
 
 
 def solve(
+    context: typer.Context,
     knot: options.KnotArgument,
-    formulation: FormulationOption = Requirements.formulation,
+    formulation: WhichFormulationOption = None,
     threading: ThreadingOption = None,
     with_: WithOption = None,
     r: options.OpennessOption = None,
@@ -138,15 +153,33 @@ def solve(
     plot: options.PlotOption = None,
     as_json: options.JsonOption = False,
 ) -> None:
-    """Find the smallest set of supports, with proof that none is smaller.
+    """Say how many robots a knot takes; with --formulation, find the smallest set that it asks for.
+
+    Without a formulation: the least for the knot, to lay its diagram, flown, and safe. With one,
+    the set is proven to be the smallest. --diagrams and --laid are about formulation loops unless
+    another is named.
 
     Example: knotopt solve '7 Var2' --formulation span --plot supports.png
     """
     from formulations.export import FORMATS
     from knotopt.supports.minimal import all_minimal
 
+    if formulation is None and not (diagrams or laid):
+        _refuse_others(context, "goes with --formulation " + ", ".join(FORMULATIONS))
+        limits = options.solver_limits(time_limit, gap, threads, seed)
+        answer_knot(
+            knot,
+            budget=budget,
+            seed=seed,
+            solver=solver,
+            limits=limits,
+            plot=plot,
+            as_json=as_json,
+        )
+        return
+    check_openness(formulation or LOOPS, r)
     asked = Requirements(
-        formulation,
+        formulation or LOOPS,
         r,
         threading,
         with_loops=with_loops(with_),
@@ -170,7 +203,7 @@ def solve(
     flights = FlightOptions(noise, trials, physics_budget, max_cut, None if diagrams else out)
     (flights.tests if verify_physics else flights.check_unused)()
     named = read(knot)
-    check_size(named.diagram.size, "solve", **{f"--formulation {formulation}": True})
+    check_size(named.diagram.size, "solve", **{f"--formulation {asked.formulation}": True})
     if verify_physics:
         if cut == "all":
             options.refuse("--cut", "with --verify-physics, give --cut best or a cut's name")
@@ -200,6 +233,15 @@ def solve(
         print_written(*written)
     if not result.found:
         raise typer.Exit(1)
+
+
+def _refuse_others(context: typer.Context, why: str) -> None:
+    """Refuse the first option that is given and does not go with the answer."""
+    for parameter in context.command.params:
+        source = context.get_parameter_source(parameter.name or "")
+        is_given = source is not None and source.name == "COMMANDLINE"
+        if is_given and parameter.name not in _OF_THE_ANSWER:
+            options.refuse(parameter.opts[0], why)
 
 
 def _answer_json(

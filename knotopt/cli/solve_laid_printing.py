@@ -11,8 +11,14 @@ if TYPE_CHECKING:
 def laid_facts(search: CutSearch) -> list[tuple[str, str]]:
     """Facts to print: what is laid, what it loses, and how many sets were cut off."""
     content = laid_json(search)
+    if not search.best.found:
+        return [("cut off", _cut_off(content["cut_off"]))]
     lost = ", ".join(f"[{column},{row}]" for column, row in content["redundant"])
-    words = f"but for {lost}, redundant" if lost else "the grid's diagram"
+    words = "every hook of the grid's"
+    if lost:
+        words = f"without the hooks {lost}, which it does not need"
+    elif content["all_flown"]:
+        words = "the grid's diagram"
     return [
         ("laid", f"the knot by {content['compared_by']}: {words}"),
         ("cut off", _cut_off(content["cut_off"])),
@@ -28,6 +34,7 @@ def _cut_off(count: int) -> str:
 
 def laid_json(search: CutSearch) -> dict[str, Any]:
     """What `--json` says of the laid cable of the set that was found."""
+    from knotopt.laid.hooks import flown_crossings
     from knotopt.laid.invariants import compared_by
     from knotopt.laid.laid import LaidTest
 
@@ -38,4 +45,5 @@ def laid_json(search: CutSearch) -> dict[str, Any]:
         cells = best.cable.crossings.cell
         content["is_knot"] = laid.is_knot
         content["redundant"] = [cells[each.crossing].tolist() for each in laid.lost]
+        content["all_flown"] = len(flown_crossings(best.cable, best.supports)) == len(cells)
     return content

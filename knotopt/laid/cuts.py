@@ -16,13 +16,13 @@ hooks are lost there; if that cannot be made up for by what happens later, these
 from __future__ import annotations
 
 from collections.abc import Collection
-from itertools import chain, combinations
+from itertools import chain
 
 from knotopt.laid.hooks import LostHook
 from knotopt.laid.laid import LaidTest
 from knotopt.supports.by_size import Clause
 
-MOST_WAYS = 4096
+MOST_WAYS = 2**16
 """Of losing hooks that are tried for one clause."""
 
 
@@ -103,5 +103,4 @@ def _some_way(test: LaidTest, lost: Collection[int], others: Collection[int] | N
     free = [c for c in (test.hooks if others is None else others) if c not in lost]
     if 2 ** len(free) > MOST_WAYS:
         return True
-    ways = chain.from_iterable(combinations(free, count) for count in range(len(free) + 1))
-    return any(test.apart({*lost, *way}) is None for way in ways)
+    return any(test.apart(way) is None for way in test.ways.alike(lost, free))

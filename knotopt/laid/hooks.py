@@ -18,7 +18,7 @@ import numpy as np
 
 from knotopt.cable.cable import Cable
 from knotopt.flight.grid_layout import letters_of_grid
-from knotopt.flight.layout import Letter, undone_pairs
+from knotopt.flight.layout import Letter, reduced, undone_pairs
 from knotopt.path.mesh import robot_times
 
 
@@ -86,6 +86,24 @@ def lost_hooks(cable: Cable, supports: tuple[int, ...]) -> tuple[LostHook, ...]:
     for word in letters_of_grid(cable, supports):
         found += _undone(cable, word, own)
     return tuple(sorted(found, key=lambda each: each.crossing))
+
+
+def flown_crossings(cable: Cable, supports: tuple[int, ...]) -> tuple[int, ...]:
+    """The crossings of different spans that nothing undoes: those that the leader makes.
+
+    Parameters, raises
+        As for `lost_hooks`.
+
+    Returns
+    -------
+    tuple of int
+        Indices into `cable.crossings`, ascending.
+    """
+    words = letters_of_grid(cable, supports)
+    ranks = {letter.rank for word in words for letter in reduced(word)}
+    return tuple(
+        c for c, first in enumerate(cable.crossings.first.tolist()) if float(first) in ranks
+    )
 
 
 def _undone(cable: Cable, word: tuple[Letter, ...], own: list[int]) -> list[LostHook]:

@@ -2,6 +2,10 @@
 
 The laid cable's diagram is the grid's with every lost hook (`knotopt.laid.hooks`) turned over: the
 later strand, held by nothing there, passes above. What its knot is, invariants say.
+
+Crossings that are over as well, and are not flown since they undo each other or belong to one span,
+are drawn with it; what is hooked between them later then counts as beyond them. So where the
+crossings that are flown make a diagram by themselves, that has to be the knot, too.
 """
 
 from __future__ import annotations
@@ -13,8 +17,10 @@ from functools import cached_property
 import numpy as np
 
 from knotopt.cable.cable import Cable
-from knotopt.laid.hooks import LostHook, lost_hooks
+from knotopt.errors import DiagramError
+from knotopt.laid.hooks import LostHook, flown_crossings, lost_hooks
 from knotopt.laid.invariants import Invariants
+from knotopt.laid.ways import Ways
 from knotopt.planar.gauss import from_visits
 from knotopt.planar.planar_diagram import PlanarDiagram
 
@@ -56,7 +62,7 @@ class Laid:
         redundant.
     apart : str or None
         The invariant that tells the laid cable from the knot; None if it is the knot as far as
-        invariants say. For certain it is where nothing is lost, since the diagram is the grid's.
+        invariants say. For certain it is where every crossing is flown: the diagram is the grid's.
     """
 
     supports: tuple[int, ...]
@@ -98,6 +104,7 @@ class LaidTest:
     def __init__(self, cable: Cable) -> None:
         self.cable = cable
         self._apart: dict[frozenset[int], str | None] = {frozenset(): None}
+        self._as_flown: dict[tuple[int, ...], str | None] = {}
 
     @cached_property
     def hooks(self) -> tuple[int, ...]:
@@ -109,12 +116,40 @@ class LaidTest:
         """Of the grid's own diagram."""
         return Invariants(laid_diagram(self.cable, ()))
 
+    @cached_property
+    def ways(self) -> Ways:
+        """The diagrams that losing hooks can leave."""
+        return Ways(self.knot.planar)
+
     def apart(self, lost: Collection[int]) -> str | None:
         """The invariant that tells the knot with these hooks turned over from the grid's."""
         key = frozenset(lost)
         if key not in self._apart:
             self._apart[key] = self.knot.apart(Invariants(laid_diagram(self.cable, key)))
         return self._apart[key]
+
+    def apart_as_flown(self, flown: Collection[int]) -> str | None:
+        """The invariant that tells the cable with these crossings alone from the grid's.
+
+        None also where they cannot be drawn in the plane without others.
+        """
+        key = tuple(sorted(flown))
+        if key not in self._as_flown:
+            number = {c: k for k, c in enumerate(key)}
+            _, index, over = self.cable.visits
+            kept = [
+                (number[c], o)
+                for c, o in zip(index.tolist(), over.tolist(), strict=True)
+                if c in number
+            ]
+            signs = self.cable.crossings.sign[list(key)].tolist()
+            try:
+                planar = from_visits([c for c, _ in kept], [o for _, o in kept], signs)
+            except DiagramError:
+                self._as_flown[key] = None
+            else:
+                self._as_flown[key] = self.knot.apart(Invariants(planar))
+        return self._as_flown[key]
 
     def laid(self, supports: tuple[int, ...]) -> Laid:
         """What a set of supports makes of the cable.
@@ -127,4 +162,7 @@ class LaidTest:
         lost = lost_hooks(self.cable, supports)
         crossings = [each.crossing for each in lost]
         needed = tuple(c for c in crossings if self.apart({c}) is not None)
-        return Laid(supports, lost, needed, self.apart(crossings))
+        apart = self.apart(crossings)
+        if apart is None:
+            apart = self.apart_as_flown(flown_crossings(self.cable, supports))
+        return Laid(supports, lost, needed, apart)

@@ -35,8 +35,15 @@ def signature(planar: PlanarDiagram) -> int:
     return _signature_of_form(form) + correction
 
 
-def _goeritz(planar: PlanarDiagram) -> tuple[Form, int]:
-    """The Goeritz matrix over the faces of one colour but one, and the correction."""
+def checkerboard(planar: PlanarDiagram) -> list[tuple[int, int, int]]:
+    """Of each crossing, two opposite faces there, of the colour that has fewer faces.
+
+    Returns
+    -------
+    list of (face, face, turn)
+        Numbers of the faces, as in `planar.faces`; +1 where the strand above sweeps through them as
+        it turns counterclockwise onto the strand below, else -1.
+    """
     face = {corner: number for number, each in enumerate(planar.faces) for corner in each}
     # Left of the knot faces are white and black by turns, so that right of an odd edge, in corners
     # 0 and 2 of the crossing that it comes to below, they are white.
@@ -46,11 +53,17 @@ def _goeritz(planar: PlanarDiagram) -> tuple[Form, int]:
         for black in (0, 1)
     ]
     fewer = min((0, 1), key=lambda black: len({*chain.from_iterable(across[black])}))
+    return [
+        (a, b, 1 if first == fewer else -1)
+        for (a, b), first in zip(across[fewer], firsts, strict=True)
+    ]
+
+
+def _goeritz(planar: PlanarDiagram) -> tuple[Form, int]:
+    """The Goeritz matrix over the faces of one colour but one, and the correction."""
     form: Form = {}
     correction = 0
-    for (a, b), first, sign in zip(across[fewer], firsts, planar.signs, strict=True):
-        # How the strand above turns onto that below: through these faces, or through the others.
-        turn = 1 if first == fewer else -1
+    for (a, b, turn), sign in zip(checkerboard(planar), planar.signs, strict=True):
         if turn == sign:
             correction -= turn
         if a != b:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from knotopt.catalogue.everyday_names import everyday_names, plain
 from knotopt.catalogue.knots import PrimeKnot
 from knotopt.catalogue.prime_names import numbered, prime_named
-from knotopt.catalogue.stored_grids import GRIDS, stored_grids
+from knotopt.catalogue.stored_grids import GRIDS, stored_grid
 from knotopt.catalogue.table1_grids import table1_grids
 from knotopt.diagram.families import torus_knot
 from knotopt.diagram.grid import GridDiagram
@@ -173,13 +173,12 @@ def _stored(text: str, name: str) -> _Named | None:
     knot = _knot(text, _DEEPEST)
     if knot is None:
         return None
-    stored = stored_grids().get((knot.name.removeprefix("m"), name))
-    if stored is None:
+    diagram = stored_grid(knot.name, name)
+    if diagram is None:
         raise UnknownKnotError(
             f"no grid {name} is stored of {knot.name}: {', '.join(GRIDS)} are of the "
             "prime knots up to 10 crossings"
         )
-    diagram = stored.diagram.mirrored if knot.name.startswith("m") else stored.diagram
     return replace(knot, diagram=diagram, source=f"{knot.source}; best grid found, {GRIDS[name]}")
 
 

@@ -20,7 +20,10 @@ from knotopt.search.lines import lines_of, trace
 from knotopt.search.loops import NONE, fewest_robots, find_crossings
 
 STEPS = 10_000
-"""Steps of a run for each line of the given grid."""
+"""Steps of a run for each line of a given grid of at most `USUAL` lines."""
+
+USUAL = 16
+"""Of larger grids, which take longer to look at by the square of their size, fewer are."""
 
 LONG_FROM, LONGER = 40, 10
 """Once so many runs have not found enough, the next ones are so many times as long."""
@@ -94,8 +97,7 @@ def run(diagram: GridDiagram, number: int, seed: int = 0, *, compile: bool | Non
     lines = lines_of(diagram, widest)
     source = random.Random(f"{seed} {number}")
     state = [diagram.size, source.randrange(1, DRAWN), source.randrange(1, DRAWN)]
-    steps = STEPS * diagram.size * (LONGER if number >= LONG_FROM else 1)
-    plan = [steps, widest, LEVELS, ENERGIES, *WEIGHTS[number % len(WEIGHTS)]]
+    plan = [_steps(diagram.size, number), widest, LEVELS, ENERGIES, *WEIGHTS[number % len(WEIGHTS)]]
     best, kept = listed([NONE] * ROBOTS), empty(ROBOTS * 2 * widest)
     walk = compiled(anneal) if compile else anneal
     looked = walk(
@@ -126,6 +128,12 @@ def counted(diagram: GridDiagram) -> FoundGrid:
     reach, closing = [0] * 2 * size, [0] * 2 * size
     crossings = find_crossings(lines, size, reach)
     return FoundGrid(fewest_robots(size, reach, closing), crossings, diagram)
+
+
+def _steps(size: int, number: int) -> int:
+    """Steps of a run."""
+    steps = STEPS * size * USUAL**2 // max(size, USUAL) ** 2
+    return max(1, steps * (LONGER if number >= LONG_FROM else 1))
 
 
 def _found(best: list[int], kept: list[int]) -> Iterator[FoundGrid]:

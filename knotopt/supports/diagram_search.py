@@ -34,7 +34,7 @@ SHARE_LOOKED = 0.25
 """Of a budget in seconds: for looking at grids; the rest is for solving some."""
 
 STARTS = 12
-"""Grids that the walk is first tried from, the best by what they were searched for."""
+"""Grids found that the walk is first tried from, the best by what they were searched for."""
 
 PATIENCE = 60
 """Grids solved without less cost before the walk goes on from another start."""
@@ -125,7 +125,8 @@ def find_diagram(
     known : (GridSearch, Walk or None), optional
         What an earlier search found, to go on from.
     starts : sequence of GridDiagram
-        Grids of the same knot, such as stored ones, to solve before those that the search finds.
+        Grids of the same knot, such as stored ones, that are solved whatever the budget, on all
+        cuts, before those that the search finds.
     solver, limits
         As for `best_supports`, for the diagram found.
     compile : bool, optional
@@ -172,6 +173,7 @@ class _Walker:
         self._asked, self._solver, self._seed = asked, solver, grids.seed
         self._given = grids.diagram
         found = sorted(grids.found, key=lambda each: each.counts)
+        self._at_hand = tuple(starts)
         self._starts = [*starts, *(each.diagram for each in found)]
         self._known: dict[GridDiagram, tuple[float, float | None]] = {}
 
@@ -184,7 +186,9 @@ class _Walker:
             if walk is None:
                 cost = self._cost(self._given, None)
                 walk = Walk(self._given, cost, self._given, cost)
-            while not budget.is_spent(walk.solved * LOOKED_PER_SOLVED, time.monotonic() - start):
+            while walk.started < len(self._at_hand) or not budget.is_spent(
+                walk.solved * LOOKED_PER_SOLVED, time.monotonic() - start
+            ):
                 walk = self._step(walk)
                 if progress is not None:
                     progress(walk)
@@ -196,7 +200,7 @@ class _Walker:
     def _step(self, walk: Walk) -> Walk:
         """Solve the next start or a neighbour, and go there if it needs no more robots."""
         source = random.Random(f"{self._seed} {walk.solved}")
-        if walk.started < min(STARTS, len(self._starts)):
+        if walk.started < min(len(self._at_hand) + STARTS, len(self._starts)):
             return self._tried(self._starts[walk.started], walk, is_start=True)
         if walk.waited >= PATIENCE:
             again = replace(walk, here=source.choice(self._starts), cost=None, waited=0)
@@ -247,7 +251,8 @@ class _Walker:
         None that needs as many as the limit there is likely to need fewer for `span`.
         """
         cuts, asked = crossing_free_cuts(diagram), self._asked
-        if asked.formulation != "span" or asked.max_robots is not None:
+        is_other = asked.formulation != "span" or asked.max_robots is not None
+        if is_other or diagram in self._at_hand:
             return cuts
         quick = replace(asked, formulation="opening")
         needed = []

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import asdict, fields, replace
 from fractions import Fraction
 from itertools import chain
@@ -16,10 +16,12 @@ from knotopt.document.cells import mean, median, percent, yes
 from knotopt.document.columns import Column, Row, names
 from knotopt.document.formats import Tabulation
 from knotopt.document.model import table, table_of, tables
+from knotopt.identify.identify import identify
 from knotopt.path import measures
 from knotopt.path.measures import PathMeasures, both_methods, measure
 from knotopt.supports.search import CutSearch, best_supports
 from knotopt.supports.support_set import SupportSet
+from knotopt.tables import of_the_knot
 from knotopt.tables.methods import (
     HEURISTICS,
     LAYERED,
@@ -38,6 +40,7 @@ COLUMNS = (
     Column("cuts", int, "how many there are to choose from"),
     Column("openness", float, "r [grid steps]"),
     Column("robots_before", int, "robots at all 2N turning points"),
+    *of_the_knot.COLUMNS,
     *LCF.columns("robots", "cut", "open", "seconds"),
     *LAYERED.columns("robots", "cut", "open"),
     *columns_of(USUAL_PROGRAMS, "robots", "cut", "proven", "seconds"),
@@ -54,7 +57,7 @@ PATH_HEADS = {
 }
 """Measures of a path of which tables show medians, and their heads."""
 HEADS = (
-    *("knot", "before"),
+    *("knot", *of_the_knot.HEADS, "before"),
     *(head for method in HEURISTICS for head in (method.head, "open")),
     *(method.head for method in USUAL_PROGRAMS),
     "proven",
@@ -65,7 +68,8 @@ first). LCF is "open" if its set keeps every active region open by the definitio
 with the same r and threading by turning points, as for `opening`; for `span` strands thread that \
 change between over and under. "Safe" is `span` with a support on every loop of the cable, too; \
 "loops" asks for that alone: the fewest robots that lay this diagram with straight spans, no bound \
-for flights of the knot. Proven: none of the four has a smaller set on any of the cuts."""
+for flights of the knot. Proven: none of the four has a smaller set on any of the cuts. """
+NOTE += of_the_knot.NOTE
 
 
 def compare(
@@ -73,6 +77,7 @@ def compare(
     diagram: GridDiagram,
     *,
     source: str = "",
+    candidates: Collection[str] | None = None,
     openness: Fraction | float | None = None,
     cuts: Iterable[Cut] | None = None,
     solver: str = DEFAULT,
@@ -86,6 +91,8 @@ def compare(
     diagram : GridDiagram
     source : str
         Where the diagram comes from, in words.
+    candidates : collection of str, optional
+        Names of the knot, as `known_of_knot` takes them; by default by its invariants.
     openness : optional
         r of every formulation [grid steps]; by default 0.5.
     cuts : iterable of Cut, optional
@@ -115,6 +122,7 @@ def compare(
         "cuts": len(chosen),
         "openness": float(judge.openness),
         "robots_before": plain.baseline,
+        **_of_the_knot(diagram, candidates),
     }
     for heuristic, found in ((LCF, plain), (LAYERED, LAYERED.best(diagram, chosen))):
         row |= heuristic.cells(
@@ -146,6 +154,13 @@ def compare(
     if searches[OPENING].best.found:
         sets[OPENING.key] = searches[OPENING].best
     return {column: row[column] for column in names(COLUMNS)} | {"paths": path_rows(sets)}
+
+
+def _of_the_knot(diagram: GridDiagram, candidates: Collection[str] | None) -> Row:
+    if candidates is not None:
+        return of_the_knot.cells(candidates)
+    found = identify(diagram)
+    return of_the_knot.cells(found.candidates, found.invariants.alexander or ())
 
 
 def comparison_table(rows: Sequence[Row]) -> Tabulation:
@@ -229,7 +244,7 @@ def _display(row: Row) -> list[str]:
     """The cells of a row under `HEADS`."""
     # One knot may have several grids: those of Table I are told from KnotInfo's.
     source = f" ({row['source']})" if row["source"].startswith("Table I") else ""
-    cells = [row["knot"] + source, str(row["robots_before"])]
+    cells = [row["knot"] + source, *of_the_knot.display(row), str(row["robots_before"])]
     for heuristic in HEURISTICS:
         cells += [str(row[f"{heuristic.key}_robots"]), yes(row[f"{heuristic.key}_open"])]
     for program in USUAL_PROGRAMS:
@@ -244,7 +259,9 @@ def _averages(rows: Sequence[Row]) -> list[str]:
     def average(column: str) -> str:
         return mean([row[column] for row in rows])
 
-    cells = [f"mean of {len(rows)}", average("robots_before")]
+    flown = [row["flown"] for row in rows if row["flown"] is not None]
+    known = f"{mean(flown)} of {len(flown)}" if flown else "–"
+    cells = [f"mean of {len(rows)}", average("needed"), known, average("robots_before")]
     for heuristic in HEURISTICS:
         is_open = [row[f"{heuristic.key}_open"] for row in rows]
         cells += [average(f"{heuristic.key}_robots"), percent(is_open, 0)]

@@ -22,6 +22,7 @@ from knotopt.path.result import PathResult
 from knotopt.supports.lcf import LcfResult, best_cut
 from knotopt.supports.minimal import MinimalSupports, minimal_supports
 from knotopt.supports.search import best_supports
+from knotopt.tables import of_the_knot
 from knotopt.tables.methods import LCF, OPENING, USUAL_PROGRAMS, columns_of
 
 Placed = tuple[tuple[int, int, int], ...]
@@ -38,7 +39,8 @@ that does; "open" says whether it does (formulation opening, r = 0.5). Under ope
 (span with a support on every loop of the cable, too) and loops (only that) stand the smallest \
 numbers of robots on LCF's cut and, in brackets, on the best of all crossing-free cuts; they are \
 proven if no smaller set exists under that definition. Loops is the fewest robots that lay this \
-diagram with straight spans, no bound for flights of the knot."""
+diagram with straight spans, no bound for flights of the knot. """
+NOTE += of_the_knot.NOTE
 """What the table does and does not show; printed wherever the table is."""
 
 COLUMNS = (
@@ -50,6 +52,7 @@ COLUMNS = (
     Column("robots_before", int, "robots at all 2N turning points"),
     Column("robots_after", int, "robots of LCF's set"),
     Column("robots_after_paper", int, "robots after reduction, as the paper has them"),
+    *of_the_knot.COLUMNS,
     Column("reduction_percent", float, "robots that LCF saves [percent]"),
     Column("longest_staircase", int, "crossings in the longest diagonal run (Fig. 7)"),
     Column("supports", Placed, "LCF's: index on the path (1-based), column, row of each"),
@@ -64,7 +67,7 @@ COLUMNS = (
 and each of them is [index on the path (1-based), column, row]."""
 
 HEADS = (
-    *("row", "knot", "cut", "before", "LCF", "paper", "open"),
+    *("row", "knot", *of_the_knot.HEADS, "paper", "LCF", "open", "before", "cut"),
     *(method.head for method in USUAL_PROGRAMS),
     "proven",
 )
@@ -145,10 +148,10 @@ def tabulated_paths(results: Sequence[Table1Result]) -> Tabulation:
 
 def _display(row: Row) -> list[str]:
     """The cells of a row under `HEADS`."""
-    shown = ("row", "knot", "cut", "robots_before", "robots_after", "robots_after_paper")
     return [
-        *(str(row[name]) for name in shown),
-        yes(row["lcf_open"]),
+        *(row["row"], row["knot"], *of_the_knot.display(row)),
+        *(str(row[name]) for name in ("robots_after_paper", "robots_after")),
+        *(yes(row["lcf_open"]), str(row["robots_before"]), row["cut"]),
         *(f"{row[f'{m.key}_same_cut']} ({row[f'{m.key}_robots']})" for m in USUAL_PROGRAMS),
         yes(row["proven"]),
     ]
@@ -182,6 +185,7 @@ def _result(grid: Table1Grid) -> Table1Result:
         "robots_before": result.baseline,
         "robots_after": result.robots,
         "robots_after_paper": grid.robots_after_paper,
+        **of_the_knot.cells([grid.knot]),
         "reduction_percent": result.reduction_percent,
         "longest_staircase": longest,
         "supports": result.placed_supports,

@@ -3,6 +3,7 @@
 From the path's turning points alone. A crossing counts where the later visit passes under the older
 one, unless both are on one span, which is straight, or the strand's next crossing undoes it, there
 and back under one older span. Everywhere else the later strand is held by nothing, and passes over.
+Where the crossings that are left make a diagram by themselves, that has to be the knot, too.
 
 The knot is examined by its diagram's faces. Its Alexander polynomial is the determinant of
 Alexander's own matrix, a row for each crossing and a column for each face but two neighbours:
@@ -86,10 +87,14 @@ def check_laid(path: Sequence[Cell], supports: Collection[int]) -> LaidReport:
     [True, False]
     """
     crossings = tuple(crossings_of(path))
-    lost = lost_crossings(path, crossings, supports)
+    kept = kept_crossings(path, crossings, supports)
+    lost = [c for c in crossings if c.first_over and c not in kept]
     before = _invariants(crossings, tuple(c.first_over for c in crossings))
-    after = _invariants(crossings, tuple(c.first_over and c not in lost for c in crossings))
-    same = [one == other for one, other in zip(before, after, strict=True)]
+    after = [_invariants(crossings, tuple(c.first_over and c not in lost for c in crossings))]
+    flown = tuple(c for c in crossings if c in kept)
+    if _is_planar(flown):
+        after.append(_invariants(flown, tuple(c.first_over for c in flown)))
+    same = [all(each[k] == before[k] for each in after) for k in (0, 1)]
     return LaidReport(tuple(c.place for c in lost), *same)
 
 
@@ -109,10 +114,10 @@ def crossings_of(path: Sequence[Cell]) -> list[Crossing]:
     return found
 
 
-def lost_crossings(
+def kept_crossings(
     path: Sequence[Cell], crossings: Sequence[Crossing], supports: Collection[int]
 ) -> list[Crossing]:
-    """The crossings at which the later strand passed under the older, and no longer does."""
+    """The crossings of different spans that no other one undoes."""
     cells = lay(path)
     robots = [cells.index(path[k - 1]) for k in sorted(supports)]
     kept = []
@@ -126,7 +131,7 @@ def lost_crossings(
         while (place := _first_undone(word)) is not None:
             del word[place : place + 2]
         kept += [letter[3] for letter in word]
-    return [c for c in crossings if c.first_over and c not in kept]
+    return kept
 
 
 def _first_undone(word: Sequence[tuple[int, bool, int, Crossing]]) -> int | None:
@@ -190,11 +195,15 @@ def _corners(crossings: Sequence[Crossing]) -> list[tuple[int, int, int, int]]:
         found.append(corner)
     names = {find(side): 0 for corner in found for side in corner}
     names = {side: face for face, side in enumerate(names)}
-    if len(names) != len(crossings) + 2:
-        raise ValueError(f"{len(crossings)} crossings with {len(names)} faces lie in no plane")
     return [
         (names[find(a)], names[find(b)], names[find(c)], names[find(d)]) for a, b, c, d in found
     ]
+
+
+def _is_planar(crossings: Sequence[Crossing]) -> bool:
+    """Whether crossings, visited in the order of their times, are those of a curve in the plane."""
+    faces = {face for corner in _corners(crossings) for face in corner}
+    return not crossings or len(faces) == len(crossings) + 2
 
 
 def _alexander_rows(

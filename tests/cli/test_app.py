@@ -224,7 +224,18 @@ def test_doctor(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
     found = cli.json("doctor")
     assert [solver["works"] for solver in found["solvers"]] == [True] * 5
     assert found["versions"]["numpy"][0].isdigit()
-    extras = {"viz", "knotinfo", "snappy", "scip", "sat", "sim", "atlas", "cluster", "pandas"}
+    extras = {
+        "viz",
+        "knotinfo",
+        "snappy",
+        "scip",
+        "sat",
+        "sim",
+        "atlas",
+        "cluster",
+        "pandas",
+        "fast",
+    }
     assert set(found["extras"]) == extras
     broken = [probe.ProbeResult("CP-SAT (ortools)", False, "wrong optimum 2")]
     asked: list[str] = []

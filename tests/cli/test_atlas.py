@@ -99,7 +99,7 @@ def test_grids_of_a_folder(cli: Cli, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["3_1", "8_22"], "knotopt: no knot is named '8_22'; nearest:"),
+        (["3_1", "8_22"], "knotopt: no knot is named '8_22'; KnotInfo has 8_1 to 8_21"),
         (["3_1", "--catalogue"], "give one of: knots, --catalogue, --knotinfo, --grids"),
         (["--grids", "nowhere"], "knotopt: cannot read nowhere: No such file or directory"),
         (["3_1", "--r", "2"], "knotopt: the openness r must lie in (0, 1] grid steps, not 2.0"),

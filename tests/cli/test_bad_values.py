@@ -23,6 +23,7 @@ from tests.helpers.command_line import Cli
 ON_KNOTS = ("show", "lcf", "solve", "path", "fly", "topology", "compare", "prove")
 ARGUMENTS = {
     **{name: ["3"] for name in ON_KNOTS},
+    "solve": ["3", "--formulation", "opening"],
     "atlas": ["run", "3"],
     "report": ["no_such_run", "--out", "report"],
     "check": ["no_such_file"],
@@ -74,7 +75,7 @@ def options(*kinds: type) -> Iterator[tuple[str, str, str]]:
     for command, (module, _) in COMMANDS.items():
         function = getattr(importlib.import_module(f"knotopt.cli.{module}"), command)
         for parameter in inspect.signature(function, eval_str=True).parameters.values():
-            base, *notes = typing.get_args(parameter.annotation)
+            base, *notes = typing.get_args(parameter.annotation) or (parameter.annotation,)
             option = next((note for note in notes if isinstance(note, OptionInfo)), None)
             plain = {*typing.get_args(base)} or {base}
             plain = {each for kind in plain for each in typing.get_args(kind) or (kind,)}

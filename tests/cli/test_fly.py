@@ -117,6 +117,8 @@ def test_an_interrupt_leaves_nothing(cli: Cli, tmp_path: Path, when: str) -> Non
         (("--supports", "few"), 1, "supports are milp, lcf, all or a .json file"),
         (("--supports", "lcf", "--r", "0.3"), 2, "goes with --supports milp"),
         (("--supports", "all", "--formulation", "span"), 2, "goes with --supports milp"),
+        (("--supports", "lcf", "--with", "none"), 2, "goes with --supports milp"),
+        (("--formulation", "loops", "--r", "0.5"), 2, "loops has no openness"),
         (("--formulation", "best"), 1, "no formulation is named 'best'"),
         (("--cut", "col2+"), 1, "carries"),
         (("--speed", "nan"), 1, "speed is a number from 0 up, not nan"),

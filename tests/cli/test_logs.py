@@ -38,7 +38,7 @@ def test_verbose_before_and_after_the_command(
 def test_a_log_says_where_the_time_went_and_is_appended_to(cli: Cli, tmp_path: Path) -> None:
     log = tmp_path / "run.log"
     for _ in range(2):
-        status, _, err = cli("solve", "3", "--cut", "L+", "--log", log)
+        status, _, err = cli("solve", "3", "--formulation", "opening", "--cut", "L+", "--log", log)
         assert (status, err) == (0, "")
     lines = log.read_text().splitlines()
     assert len(lines) == 6 and lines[:3] != lines[3:]
@@ -60,8 +60,13 @@ def test_every_knot_of_an_atlas_is_logged(cli: Cli, tmp_path: Path) -> None:
 
 def test_a_log_says_how_it_ended(cli: Cli, tmp_path: Path) -> None:
     log = tmp_path / "run.log"
-    assert cli("solve", "3", "--cut", "L+", "--reach", 0.1, "--log", log)[0] == 1
-    assert cli("solve", "3", "--cut", "nowhere", "--log", log)[0] == 1
+    assert (
+        cli("solve", "3", "--formulation", "opening", "--cut", "L+", "--reach", 0.1, "--log", log)[
+            0
+        ]
+        == 1
+    )
+    assert cli("solve", "3", "--formulation", "opening", "--cut", "nowhere", "--log", log)[0] == 1
     ends = [line.split(": ", 1)[1] for line in log.read_text().splitlines()[-3::2]]
     assert ends[0].startswith("exit status 1 after")
     assert ends[1].startswith("ended by CutError: no cut is named 'nowhere'")

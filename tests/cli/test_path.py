@@ -50,7 +50,11 @@ def test_path_in_metres(cli: Cli) -> None:
 
 
 def test_path_takes_what_solve_and_lcf_print(cli: Cli, tmp_path: Path) -> None:
-    for command in (("solve", "5"), ("lcf", "5", "--cut", "R-"), ("path", "5", "--cut", "T+")):
+    for command in (
+        ("solve", "5", "--formulation", "opening"),
+        ("lcf", "5", "--cut", "R-"),
+        ("path", "5", "--cut", "T+"),
+    ):
         file = tmp_path / "set.json"
         content = cli.json(*command)
         file.write_text(json.dumps(content))

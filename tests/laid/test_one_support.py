@@ -129,6 +129,8 @@ def test_crossings_in_any_order_tie_the_figure_eight() -> None:
 def test_of_the_knots_to_ten_crossings_four_may_have_three_robots() -> None:
     three = [name for name in shipped_knots() if fewest_by_claim([name], ()).robots == 3]
     assert three == ["3_1", "5_1", "7_1", "9_1"]
+    other = fewest_by_claim(["5_2"], ())
+    assert len(other.assumptions) == 4 and "tied 5_2 with three robots" in other.against
 
 
 def test_without_a_name_the_polynomial_decides() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import combinations
+from itertools import combinations, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -21,12 +21,15 @@ from knotopt.catalogue.knots import shipped_knots
 from knotopt.cli.drawing import draw_text
 from knotopt.diagram.families import torus_knot
 from knotopt.errors import OutputError
-from knotopt.plot.cable import GAP, draw_cable, draw_regions, draw_robots
-from knotopt.plot.figures import before_after_figure, cable_figure, save_figure
+from knotopt.plot.cable import GAP, draw_cable, draw_loops, draw_regions, draw_robots
+from knotopt.plot.figures import before_after_figure, cable_figure, save_figure, smallest_figure
 from knotopt.plot.path_figures import path_figure, relaxation_figure
 from knotopt.reading.knot import read_knot
 from knotopt.supports.lcf import best_cut, lcf
+from knotopt.supports.loops import disjoint_loops
+from knotopt.supports.minimal import minimal_supports
 from knotopt.supports.regions import Regions
+from knotopt.supports.requirements import Requirements
 from tests.helpers.strategies import cables
 
 EIGHT = best_cut(shipped_knots()["8_19"].diagram)
@@ -175,3 +178,24 @@ def test_text_drawings(cable: Cable) -> None:
         assert at(*mark) in ("●" if index in supports else "┌┐└┘")
     for crossing in cable.crossings:
         assert at(crossing.column, crossing.row) == "│"
+
+
+def test_disjoint_loops_are_drawn_in_colours_that_differ_where_they_meet() -> None:
+    cable = Cable(shipped_knots()["10_123"].diagram, "L+")
+    loops = disjoint_loops(cable)
+    axes = Figure().subplots()
+    lines = draw_loops(axes, cable, loops)
+    assert len(lines) == len(loops) == 4
+    for line, index in zip(lines, loops, strict=True):
+        crossing = cable.crossings[index]
+        assert line.get_label() == f"loop c{index + 1} at [{crossing.column},{crossing.row}]"
+        drawn = np.stack(line.get_data(), axis=1)
+        assert (drawn == cable.cells[crossing.first : crossing.second + 1]).all()
+        assert (drawn[0] == drawn[-1]).all()
+    for one, other in pairwise(lines):
+        assert one.get_color() != other.get_color()
+        assert one.get_linewidth() != other.get_linewidth()
+    result = minimal_supports(cable, Requirements("loops"))
+    (panel,) = smallest_figure(result, "10_123").axes
+    assert {line.get_label() for line in lines} < {line.get_label() for line in panel.get_lines()}
+    assert not panel.images  # no regions

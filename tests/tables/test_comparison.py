@@ -46,9 +46,23 @@ def test_what_is_shown(rows: list[dict[str, Any]]) -> None:
     methods, paths = comparison_table(rows).document.tables
     first, second, means = methods.rows
     assert methods.heads == HEADS
-    assert first == ("3_1 (Table I, row 3)", "10", "5", "no", "5", "no", "5", "7", "7", "3", "yes")
-    assert second == ("8_19", "14", "10", "yes", "8", "no", "9", "10", "10", "4", "yes")
-    assert means[:4] == ("mean of 2", "12.00", "7.50", "50 %")
+    assert first == (
+        "3_1 (Table I, row 3)",
+        "3",
+        "3 (12 of 12)",
+        "10",
+        "5",
+        "no",
+        "5",
+        "no",
+        "5",
+        "7",
+        "7",
+        "3",
+        "yes",
+    )
+    assert second == ("8_19", "4", "–", "14", "10", "yes", "8", "no", "9", "10", "10", "4", "yes")
+    assert means[:6] == ("mean of 2", "3.50", "3.00 of 1", "12.00", "7.50", "50 %")
     assert means[-1] == "100 %"
     assert [row[:4] for row in paths.rows] == [
         (supports, method, "2 of 2", "2 of 2")

@@ -23,6 +23,7 @@ from knotopt.atlas.report.flights import flights_section
 from knotopt.atlas.report.gallery import gallery_figure
 from knotopt.atlas.report.heuristic import heuristic_section
 from knotopt.atlas.report.invariants import Invariants, invariants, knotinfo_version
+from knotopt.atlas.report.of_the_knots import of_the_knots_section
 from knotopt.atlas.report.relations import relations_section
 from knotopt.atlas.report.results import Results
 from knotopt.atlas.report.robots import robots_section
@@ -72,6 +73,7 @@ def report_document(results: Results, known: Mapping[str, Invariants]) -> Docume
     )
     sections = (
         assumptions_section(results),
+        of_the_knots_section(results),
         robots_section(results),
         heuristic_section(results),
         cuts_section(results),
