@@ -144,6 +144,10 @@ HEADLINES = (
         )
     ),
     Headline(
+        "identified", "knots named right, of diagrams moved about [%]", _where("named"), percent
+    ),
+    Headline("identified", "to name a knot [ms, median]", _where("seconds", MS)),
+    Headline(
         "lcf_catalogue",
         f"LCF at N = {SPEED_AT}, a cut [ms, median]",
         _where("ms_per_cut", grid_size=SPEED_AT),

@@ -24,7 +24,7 @@ LARGEST: Mapping[str, int] = MappingProxyType(
         "solve --formulation span": 26,  # N = 20: 17 s, 0.2 GiB, growing as N^5
         "prove": 40,  # a solve and a refutation for each cut
         "prove --formulation span": 20,
-        "compare": 24,  # with span
+        "compare": 22,  # N = 20: 33 s, 0.4 GiB, most of it for span
         "path": 60,  # N = 56: 10 s, 0.9 GiB; N = 80: over 5 GiB
         "path --formulation span": 26,  # its set
         "fly": 60,  # N = 40: 10 s, 0.2 GiB, of a set that is given

@@ -17,6 +17,7 @@ from knotopt.identify.invariants import Invariants, invariants
 from knotopt.identify.jones import jones_polynomial
 from knotopt.identify.summands import KnotSum, crossings_in_table, knots_with
 from knotopt.planar.from_grid import planar_diagram
+from knotopt.planar.loosened import loosened
 from knotopt.planar.planar_diagram import PlanarDiagram
 from knotopt.planar.sums import summands
 
@@ -87,7 +88,7 @@ def identify(
     diagram : GridDiagram
     planar : PlanarDiagram, optional
         Another diagram of the same knot, such as that of the code it was drawn from: taken instead
-        of the simplified grid's if it has fewer crossings.
+        of the simplified grid's if it has fewer crossings, without loops and bigons.
     prove : bool
         Have SnapPy compare complements even if one candidate is left; of several, it compares them
         wherever it is installed.
@@ -121,9 +122,8 @@ def identify(
     if prove:
         complements.require()
     grid = simplify(diagram, seed=seed)
-    drawn = planar_diagram(grid)
-    if planar is None or len(planar.crossings) > len(drawn.crossings):
-        planar = drawn
+    drawn = [loosened(each) for each in (planar_diagram(grid), planar) if each is not None]
+    planar = min(drawn, key=lambda each: len(each.crossings))
     if grid.size == 2:
         parts = [_Compared([KnotSum(())], ("grid of size 2",), True, 0)]
     else:
@@ -131,7 +131,7 @@ def identify(
         if not all(part.knots for part in parts) and grid.size <= MAX_SPLIT:
             split = split_sum(grid, seed=seed)
             if len(split) > 1:  # a sum in disguise
-                parts = [_compare(planar_diagram(part), prove=prove) for part in split]
+                parts = [_compare(loosened(planar_diagram(part)), prove=prove) for part in split]
     knots = _sums([part.knots for part in parts])
     return Identified(
         tuple(knot.name for knot in knots),

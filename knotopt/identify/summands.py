@@ -21,6 +21,7 @@ from knotopt.catalogue.knots import PrimeKnot, shipped_knots, unknot
 from knotopt.diagram.grid import GridDiagram
 from knotopt.diagram.sums import connected_sum
 from knotopt.planar.from_grid import planar_diagram
+from knotopt.planar.loosened import loosened
 from knotopt.planar.planar_diagram import PlanarDiagram
 
 Coefficients = tuple[int, ...]
@@ -83,7 +84,7 @@ class KnotSum:
     def planar(self) -> PlanarDiagram:
         """A planar diagram."""
         grids = [each.diagram for each in self.summands] or [unknot().diagram]
-        return planar_diagram(connected_sum(grids))
+        return loosened(planar_diagram(connected_sum(grids)))
 
     def __add__(self, other: KnotSum) -> KnotSum:
         return KnotSum(tuple(sorted((*self.summands, *other.summands), key=_place)))

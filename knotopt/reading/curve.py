@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from knotopt.arrays import FloatArray
+from knotopt.planar.loosened import loosened
 from knotopt.planar.views import CurveError, closed_view, open_view
 from knotopt.reading.content import Content
 from knotopt.reading.record import Asked, Reading
@@ -50,7 +51,8 @@ def read(content: Content, asked: Asked) -> Reading | None:  # noqa: ARG001
     x, y, z = view.direction
     seen = "from above" if (x, y) == (0, 0) else f"from the direction ({x:g}, {y:g}, {z:g})"
     joined = "" if is_closed else ", ends joined in the face that has both"
-    return Reading(view.diagram, (f"{kind} curve of {len(points)} points, seen {seen}{joined}",))
+    note = f"{kind} curve of {len(points)} points, seen {seen}{joined}"
+    return Reading(loosened(view.diagram), (note,))
 
 
 def _curve(rows: Sequence[tuple[int, Sequence[float]]]) -> tuple[FloatArray, bool]:

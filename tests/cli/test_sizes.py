@@ -56,7 +56,7 @@ def test_a_size_less_than_the_knot_s_is_said_before_work(
 
 @pytest.mark.parametrize(
     ("command", "most"),
-    [("lcf", "300"), ("solve", "60"), ("path", "60"), ("fly", "26"), ("compare", "24")],
+    [("lcf", "300"), ("solve", "60"), ("path", "60"), ("fly", "26"), ("compare", "22")],
 )
 def test_a_grid_of_500(cli: Cli, tmp_path: Path, command: str, most: str) -> None:
     grid = tmp_path / "grid.json"
