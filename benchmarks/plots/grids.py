@@ -28,7 +28,7 @@ def sizes_table(rows: Rows) -> str:
         for form in FORMS:
             times = [ms for row in some for ms in row[form]["milliseconds"]]
             cells.append(str(sum(len(row[form]["larger"]) for row in some)))
-            cells += [f"{median(times):.1f}", f"{max(times):.0f}"]
+            cells += [f"{median(times):.1f}", f"{max(times):.1f}"]
         lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines)
 
