@@ -20,7 +20,7 @@ from knotopt.reading.content import Content
 from knotopt.reading.record import Asked, Reading
 
 _HEADS = ("DT", "DTCode")
-_LETTERS = re.compile(r"\s*(?:DT(?=[\[(]))?[\[(\s\"']*([A-Za-z]+)(?:\.([01]*))?[\])\s\"']*")
+_LETTERS = re.compile(r"\s*+(?:DT(?=[\[(]))?[\[(\s\"']*+([A-Za-z]++)(?:\.([01]*))?[\])\s\"']*")
 _FLIPS = re.compile(r"(\[.*\])\s*,\s*\[([01,\s]*)\]\s*", re.DOTALL)
 
 
