@@ -92,6 +92,10 @@ FILES = [*options(Path)]
 
 @pytest.fixture(autouse=True)
 def no_work(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    # Modules that take the reader from there have to be imported before it is replaced.
+    for module in ("knotopt.api", "knotopt.atlas.knot_list", "knotopt.reading.goal"):
+        importlib.import_module(module)
+
     def reached(*_: object, **__: object) -> typing.NoReturn:
         raise ReachedError("nothing is refused")
 
