@@ -36,8 +36,10 @@ def read(content: Content, asked: Asked) -> Reading | None:
         Naming the visit, crossing or sign that is wrong, or how many components a link has.
     """
     content = behind_its_name(content, "gauss")
-    if content.given is None and _VISITS.match(content.text):
-        return _visits(content.text)
+    text = content.text
+    is_grid = "\n" in text and "x" in text.lower()  # lines such as "O000X"
+    if content.given is None and _VISITS.match(text) and not is_grid:
+        return _visits(text)
     if is_something_else(content, _HEADS):
         return None
     named = is_named(content, asked, "gauss", _HEADS)

@@ -155,3 +155,9 @@ def test_every_file_is_tried() -> None:
     tried |= {"pyarcknot_8_21.txt", "xco_8_21.json", "composite_3_1+3_1.json"}
     tried |= {"composite_3_1+4_1.json", "hopf.json", "gauss_1minus.txt", "dt_snappy_14n.txt"}
     assert {path.name for path in INPUTS.iterdir()} == tried
+
+
+def test_letters_with_zeros_are_a_grid_and_no_gauss_code() -> None:
+    found = read_knot("O000X\nXO000\n000XO\n00XO0\n0XO00")
+    assert (found.form, found.diagram.size) == ("grid of X and O", 5)
+    assert read_knot("O1-\nU2-\nO3-\nU1-\nO2-\nU3-\n").form == "Gauss code"
