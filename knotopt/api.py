@@ -1,4 +1,4 @@
-"""The questions that most users have, one call each: how many robots, which supports, which flight."""
+"""What most users ask, one call each: how many robots, which supports, which flight."""
 
 from __future__ import annotations
 
@@ -30,9 +30,7 @@ read = read_knot
 """Any knot: see `knotopt.reading.knot.read_knot`."""
 
 
-def count_robots(
-    knot: str | GridDiagram, *, budget: Budget | None = None, seed: int = 0
-) -> Answer:
+def count_robots(knot: str | GridDiagram, *, budget: Budget | None = None, seed: int = 0) -> Answer:
     """How many robots a knot takes, as `knotopt solve KNOT` says it.
 
     Parameters

@@ -129,7 +129,7 @@ def test_the_figures_of_each_version_are_kept(
     page = "\n".join(write_parts()[0])
     assert f"| benchmark | figure | 0.0.1 | {version} |" in page
     assert "| old | time [s] | 12.5 (3) | - |" in page
-    assert "| CP-SAT" not in page and f"- {version}, `startup`" in page
+    assert "| CP-SAT on" not in page and f"- {version}, `startup`" in page
 
 
 def test_damaged_results_are_not_recorded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

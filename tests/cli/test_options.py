@@ -20,7 +20,7 @@ from knotopt.path.world import World
 from knotopt.supports.requirements import Requirements
 
 FILLED: tuple[tuple[str, object, str], ...] = (
-    ("solve", Requirements(), "formulation openness=--r"),
+    ("solve", Requirements(), "openness=--r"),
     ("path", Requirements(), "formulation openness=--r"),
     ("prove", Requirements(), "formulation openness=--r"),
     ("compare", Requirements(), "openness=--r"),

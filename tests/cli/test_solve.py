@@ -180,8 +180,11 @@ def test_compare(cli: Cli, tmp_path: Path) -> None:
         assert all(p["same_diagram"] and p["same_knot"] for p in row["paths"][1::2])
     assert "| mean of 2 |" in (tmp_path / "a.md").read_text()
     latex = (tmp_path / "a.tex").read_text()
-    assert "\\toprule" in latex and "5\\_1 (Table I, row 5) & 14 & 5 & no &" in latex
-    assert latex.count("&") == 10 * 4 + 9 * 5 and "opening & nlp & 2 of 2 & 2 of 2" in latex
+    assert (
+        "\\toprule" in latex
+        and "5\\_1 (Table I, row 5) & 3 & 3 (11 of 12) & 14 & 5 & no &" in latex
+    )
+    assert latex.count("&") == 12 * 4 + 9 * 5 and "opening & nlp & 2 of 2 & 2 of 2" in latex
     assert cli("compare", "3", "--cut", "T-")[0] == 0
     for arguments, code, message in (
         ((), 2, "give knots, or --catalogue"),

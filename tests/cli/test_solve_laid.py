@@ -19,12 +19,12 @@ LOST = Verdict(Outcome.WRONG_KNOT, "unknot", False, True, "1")
 
 
 def test_what_is_cut_off_is_counted(cli: Cli) -> None:
-    status, out, err = cli("solve", "7 Var2", "--laid", "--cut", "L+")
+    status, out, err = cli("solve", "7 Var2", "--formulation", "opening", "--laid", "--cut", "L+")
     assert (status, err) == (0, "")
     assert "7 robots instead of 18" in out
     assert "no set of 6 robots is open and lays the knot on this cut" in out
     assert "cut off        1 set that lays another knot, and others with it" in out
-    content = cli.json("solve", "7 Var2", "--laid", "--cut", "L+")
+    content = cli.json("solve", "7 Var2", "--formulation", "opening", "--laid", "--cut", "L+")
     assert content["laid"] == {
         "compared_by": invariants.compared_by(),
         "cut_off": 1,
@@ -33,7 +33,7 @@ def test_what_is_cut_off_is_counted(cli: Cli) -> None:
         "all_flown": True,
     }
     assert (content["robots_after"], content["proven_over_cuts"]) == (7, True)
-    assert "laid" not in cli.json("solve", "7 Var2", "--cut", "L+")
+    assert "laid" not in cli.json("solve", "7 Var2", "--formulation", "opening", "--cut", "L+")
 
 
 def test_it_goes_with_what_a_team_asks(cli: Cli) -> None:
@@ -68,7 +68,8 @@ def test_flights_are_of_sets_that_lay_the_knot(cli: Cli, monkeypatch: pytest.Mon
 
     monkeypatch.setattr(cut_off, "fly_set", fly)
     monkeypatch.setattr(Simulator, "require", lambda _: None)
-    command = ("solve", "7 Var2", "--cut", "L+", "--verify-physics", "--max-cut", "2")
+    command = ("solve", "7 Var2", "--formulation", "opening", "--cut", "L+")
+    command += ("--verify-physics", "--max-cut", "2")
     status, out, _ = cli(*command, "--laid")
     assert status == 1 and "or lay another knot, were not flown" in out
     test = LaidTest(Cable(read_knot("7 Var2").diagram, "L+"))
