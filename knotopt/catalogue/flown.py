@@ -1,7 +1,7 @@
 """The smallest teams that are known to tie a knot in simulation, from the stored flights.
 
 `python -m benchmarks flown` writes the file anew. A team counts that ties the knot undisturbed and
-in at least nine of ten disturbed flights, with its robots apart throughout; the disturbances are
+in at least three of four disturbed flights, with its robots apart throughout; the disturbances are
 others than those that its plan was chosen by.
 """
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -29,9 +30,22 @@ if TYPE_CHECKING:
     from knotopt.supports.support_set import SupportSet
 
 
+FLOWN_TEAM = "flown"
+FlownSupportsOption = Annotated[
+    str,
+    typer.Option(
+        metavar="NAME|FILE",
+        autocompletion=among(("milp", "lcf", "all", FLOWN_TEAM)),
+        help="milp (the provably smallest set), lcf, all (turning points), flown (the smallest "
+        "team known to tie the knot or its mirror image, on its own grid), or a .json file such "
+        "as solve --json and lcf --json print.",
+    ),
+]
+
+
 def fly(
     knot: options.KnotArgument,
-    supports: options.SupportsOption = "milp",
+    supports: FlownSupportsOption = "milp",
     cut: options.SupportsCutOption = "best",
     formulation: Annotated[
         str | None,
@@ -68,7 +82,9 @@ def fly(
             help="optimised (the fastest), or fixed: at one pace, as in the paper.",
         ),
     ] = FlightRequest.schedule,
-    step: Annotated[float, typer.Option(help="Metres per grid step.")] = ROOM.step,
+    step: Annotated[
+        float | None, options.unless_given(ROOM.step, "Metres per grid step; a flown team's own.")
+    ] = None,
     altitude: Annotated[float, typer.Option(help="Of hovering robots [m].")] = ROOM.altitude,
     floor: Annotated[float, typer.Option(help="Lowest that a robot flies [m].")] = ROOM.floor,
     ceiling: Annotated[float, typer.Option(help="Highest that a robot flies [m].")] = ROOM.ceiling,
@@ -135,7 +151,9 @@ def fly(
 
     Example: knotopt fly 3 --sim --out trefoil
     """
-    from knotopt.supports.selection import equally_small
+    from knotopt.cable.cable import Cable
+    from knotopt.sandwich.known import flown_team
+    from knotopt.supports.selection import GivenSupports, equally_small
 
     options.check_choice("--schedule", schedule, SCHEDULES)
     if supports != "milp":
@@ -147,7 +165,8 @@ def fly(
         FLOWN.openness if r is None else r,
         with_loops=with_loops(with_),
     )
-    world = World(step, altitude, floor, ceiling, ROOM.drone_height, ROOM.downwash)
+    metres = ROOM.step if step is None else step
+    world = World(metres, altitude, floor, ceiling, ROOM.drone_height, ROOM.downwash)
     limits = FlightLimits(
         speed, acceleration, separation, downwash, spacing, slack, hover_before, hover_after
     )
@@ -161,9 +180,17 @@ def fly(
     disturbances = DisturbedFlights(**disturbed).disturbances()
     _check_surroundings(out, sim=sim)
 
+    if supports == FLOWN_TEAM and cut != "best":
+        options.refuse("--cut", "a flown team has its own")
     named = read(knot)
     check_size(named.diagram.size, "fly", **{"--supports milp": supports == "milp"})
-    sets = equally_small(named.diagram, supports, cut, requirements)
+    sets: Iterable[SupportSet]
+    if supports == FLOWN_TEAM:
+        team = flown_team(named.diagram)
+        sets = [GivenSupports(Cable(team.diagram, team.cut), team.supports)]
+        world = replace(world, step=team.step) if step is None else world
+    else:
+        sets = equally_small(named.diagram, supports, cut, requirements)
     request = FlightRequest(named.name, Path(supports).name, world, limits, schedule)
     mission = _mission(sets, request, disturbances, tighten, sim=sim)
     _finish(mission, f"{named.name} ({named.source})", out, as_json=as_json)

@@ -6,6 +6,9 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from knotopt.catalogue.flown import FlownTeam, flown_teams
+from knotopt.diagram.grid import GridDiagram
+from knotopt.errors import UnknownKnotError
+from knotopt.identify.identify import identify
 from knotopt.laid.fewest import FewestRobots, fewest_by_claim
 
 
@@ -48,3 +51,26 @@ def known_of_knot(candidates: Collection[str], alexander: Sequence[int] = ()) ->
         (name,) = candidates
         flown = flown_teams().get(name.removeprefix("m"))
     return KnownOfKnot(fewest_by_claim(candidates, alexander), flown)
+
+
+def flown_team(diagram: GridDiagram) -> FlownTeam:
+    """The smallest team that is known to tie the knot of a diagram, or its mirror image.
+
+    Raises
+    ------
+    UnknownKnotError
+        None is.
+
+    Examples
+    --------
+    >>> from knotopt.diagram.families import torus_knot
+    >>> flown_team(torus_knot(2, 5)).robots
+    3
+    """
+    candidates = identify(diagram).candidates
+    team = known_of_knot(candidates).flown if candidates else None
+    if team is None:
+        what = " or ".join(candidates) or "this knot"
+        known = ", ".join(flown_teams())
+        raise UnknownKnotError(f"no team is known to tie {what}; there are teams for {known}")
+    return team
