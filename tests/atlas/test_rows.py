@@ -253,7 +253,7 @@ def test_lists(tmp_path: Path) -> None:
         (2, "b.json", "file b.json"),
     ]
     assert {row.diagram for row in rows} == {read_knot("3_1").diagram}
-    (tmp_path / "c.json").write_text("[[1, 2]]")
+    (tmp_path / "c.json").write_text("[[1, 5]]")
     with pytest.raises(FileFormatError, match=r"c\.json"):
         folder_rows(tmp_path)
 

@@ -22,7 +22,8 @@ from benchmarks.registry import BENCHMARKS, Benchmark, register
 from knotopt.errors import FileFormatError, OutputError
 
 in_a_clone = pytest.mark.skipif(not (ROOT / ".git").exists(), reason="not in a clone")
-SIMULATED = {"physics", "physics_optimal", "physics_tight"}  # flights of half a minute
+SIMULATED = {"physics", "physics_fewest", "physics_optimal", "physics_safe", "physics_tight"}
+"""Flights of half a minute."""
 
 
 def records(path: Path) -> list[dict[str, Any]]:
