@@ -47,7 +47,7 @@ def _teams(results: str, rows: Iterable[Row]) -> Iterable[dict[str, Any]]:
         named = read_knot(row["row"])
         team = {
             "knot": named.prime_knot.name if named.prime_knot else named.name,
-            "grid": [list(mark) for mark in named.diagram.marks],
+            "grid": row.get("grid", [list(mark) for mark in named.diagram.marks]),
             "cut": row["cut"],
             "supports": row["supports"],
             "step": row.get("step", ROOM.step),
