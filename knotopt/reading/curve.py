@@ -1,9 +1,10 @@
 """Points of a curve in space: rows x, y, z as files of polymers, KnotPlot and motion capture have.
 
 In lines, an index or an element's letters may stand before them; a header names x, y and z, in any
-order and among other columns; no cell is empty, unless its column is; the XYZ files of chemistry have their number and a remark in front. Each
-point is joined to the next. If the ends are about as far apart as neighbours are, the curve is
-closed; else its ends are joined where they lie in one face of what is seen.
+order and among other columns; no cell is empty, unless its column is; the XYZ files of chemistry
+have their number and a remark in front. Each point is joined to the next. If the ends are about as
+far apart as neighbours are, the curve is closed; else its ends are joined where they lie in one
+face of what is seen.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from knotopt.planar.loosened import loosened
 from knotopt.planar.views import CurveError, closed_view, open_view
 from knotopt.reading.content import Content
 from knotopt.reading.record import Asked, Reading
+from knotopt.reading.source import REMARK
 
 MOST_POINTS = 100_000  # about ten seconds
 FARTHEST = 1e150  # of coordinates; their squares are still numbers
@@ -28,7 +30,6 @@ CLOSE = 1.5  # times the longest of the other steps: a last step that closes the
 
 _SPLIT = re.compile(r"[\s,;|]+")
 _CELLS = re.compile(r" *[\t,;|] *| +")
-_REMARK = re.compile(r"\s*(#|%|//)")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?(nan|inf(inity)?)", re.IGNORECASE)
 _UNIT = re.compile(r"[\[(].*[\])]")
 _LETTERS = re.compile(r"[A-Za-z]{1,4}\d*")
@@ -116,7 +117,7 @@ def _rows(text: str) -> Rows | None:
     lines = [
         (number, _words(line))
         for number, line in enumerate(text.splitlines(), 1)
-        if not _REMARK.match(line)
+        if not REMARK.match(line)
     ]
     lines = [*dropwhile(lambda line: not line[1], lines)]
     lines = _without_count(_of_obj(lines))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from knotopt.diagram.grid import GridDiagram
@@ -30,8 +31,8 @@ def read(content: Content, asked: Asked) -> Reading | None:
 
 
 def _is_empty(entry: Any) -> bool:
-    """Whether it is an empty cell: of a table, of JSON, of an array (where nothing is no number)."""
-    return entry is None or entry == "" or entry != entry
+    """Whether it is an empty cell: of a table, of JSON, or of an array, where it is no number."""
+    return entry is None or entry == "" or (isinstance(entry, float) and math.isnan(entry))
 
 
 def _is_matrix(rows: list[list[Any]]) -> bool:

@@ -11,9 +11,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from knotopt.reading.source import REMARK
+
 Cell = int | float | str
 
-_REMARK = re.compile(r"\s*(#|%|//)")
 _NUMBER = re.compile(r"[+-]?(\d{1,30}\.?\d{0,30}|\.\d{1,30})([eE][+-]?\d{1,3})?")
 _SEPARATORS = (";", "\t", "|", ",")
 
@@ -50,7 +51,7 @@ def parse_table(text: str) -> Table | None:
     lines = [
         (number, line)
         for number, line in enumerate(text.splitlines(), 1)
-        if line.strip() and not _REMARK.match(line)
+        if line.strip() and not REMARK.match(line)
     ]
     if len(lines) < 2:
         return None
