@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from knotopt.reading.lists import Lists, parse_lists
+from knotopt.reading.source import REMARK
 from knotopt.reading.table import Table, parse_table
 
 
@@ -37,7 +38,7 @@ class Content:
         text = self.text.strip()
         if "\n" in text and not re.search(r"[\[({]", text):
             return None  # its lines are rows
-        return parse_lists(text)
+        return parse_lists("\n".join(ln for ln in text.splitlines() if not REMARK.match(ln)))
 
     @cached_property
     def value(self) -> Any:

@@ -1,9 +1,10 @@
 """Points of a curve in space: rows x, y, z as files of polymers, KnotPlot and motion capture have.
 
-In lines, an index or an element's letters may stand before them, and a header may name the columns
-(`x`, `y`, `z` then count); the XYZ files of chemistry have their number and a remark in front. Each
-point is joined to the next. If the ends are about as far apart as neighbours are, the curve is
-closed; else its ends are joined where they lie in one face of what is seen.
+In lines, an index or an element's letters may stand before them; a header names x, y and z, in any
+order and among other columns; no cell is empty, unless its column is; the XYZ files of chemistry
+have their number and a remark in front. Each point is joined to the next. If the ends are about as
+far apart as neighbours are, the curve is closed; else its ends are joined where they lie in one
+face of what is seen.
 """
 
 from __future__ import annotations
@@ -21,13 +22,14 @@ from knotopt.planar.loosened import loosened
 from knotopt.planar.views import CurveError, closed_view, open_view
 from knotopt.reading.content import Content
 from knotopt.reading.record import Asked, Reading
+from knotopt.reading.source import REMARK
 
 MOST_POINTS = 100_000  # about ten seconds
 FARTHEST = 1e150  # of coordinates; their squares are still numbers
 CLOSE = 1.5  # times the longest of the other steps: a last step that closes the curve
 
 _SPLIT = re.compile(r"[\s,;|]+")
-_REMARK = re.compile(r"\s*(#|%|//)")
+_CELLS = re.compile(r" *[\t,;|] *| +")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?(nan|inf(inity)?)", re.IGNORECASE)
 _UNIT = re.compile(r"[\[(].*[\])]")
 _LETTERS = re.compile(r"[A-Za-z]{1,4}\d*")
@@ -115,7 +117,7 @@ def _rows(text: str) -> Rows | None:
     lines = [
         (number, _words(line))
         for number, line in enumerate(text.splitlines(), 1)
-        if not _REMARK.match(line)
+        if not REMARK.match(line)
     ]
     lines = [*dropwhile(lambda line: not line[1], lines)]
     lines = _without_count(_of_obj(lines))
@@ -125,19 +127,25 @@ def _rows(text: str) -> Rows | None:
         return None
     columns: tuple[int, ...] | None = None
     header = [word.lower() for word in lines[0][1] if not _UNIT.fullmatch(word)]
-    if not any(map(_NUMBER.fullmatch, header)):
+    is_headed = not any(map(_NUMBER.fullmatch, header))
+    if is_headed:
         columns = _named(header)
-        if columns is None and {*"xyz"} & {*header}:
-            return None
         lines = lines[1:]
         blocks[0] = blocks[0][1:]
     width = _usual([len(words) for _, words in lines])
     if columns is None:
         columns = _columns(lines, width)
+        if columns is not None and is_headed:
+            raise CurveError(
+                f"the header is {' '.join(header)[:60]!r}, and a curve's names x, y and z once each"
+            )
     elif len(header) == width - 1 and _is_counted([words[0] for _, words in lines]):
         columns = tuple(k + 1 for k in columns)  # nothing stands above an index
+    elif len(header) != width:
+        raise CurveError(f"the header names {len(header)} columns, the lines have {width}")
     if columns is None:
         return None
+    _check_filled(text, [number for number, _ in lines])
     rows = []
     for number, words in lines:
         picked = [words[k] for k in columns] if len(words) == width > max(columns) else []
@@ -161,6 +169,23 @@ def _words(line: str) -> list[str]:
         line = line.replace(",", ".")
     # An empty cell in front, as before an index, is no cell.
     return [word.strip("\"'") for word in _SPLIT.split(line.strip(" \t,;|")) if word]
+
+
+def _check_filled(text: str, numbers: Sequence[int]) -> None:
+    """Refuse lines with empty cells, unless the same cells are empty in every line.
+
+    Raises
+    ------
+    CurveError
+    """
+    lines = text.splitlines()
+    usual = None
+    for number in numbers:
+        cells = _CELLS.split(lines[number - 1].strip(" ").rstrip(" \t,;|"))
+        empty = [k for k, cell in enumerate(cells) if not cell]
+        usual = empty if usual is None else usual
+        if empty != usual:
+            raise CurveError(f"line {number} has other empty cells than line {numbers[0]}")
 
 
 def _of_obj(lines: list[Line]) -> list[Line]:
@@ -200,10 +225,13 @@ def _usual(widths: Sequence[int]) -> int:
 
 
 def _named(header: Sequence[str]) -> tuple[int, ...] | None:
-    """Where a header has x, y and z."""
+    """Where a header has x, y and z, alone or within names that are otherwise alike: pos_x."""
     names = [re.sub(r"[^a-z]", "", re.sub(r"[\[(].*", "", word)) for word in header]
-    if all(names.count(axis) == 1 for axis in "xyz"):
-        return tuple(names.index(axis) for axis in "xyz")
+    for name in sorted(names, key=len):
+        for at in re.finditer("x", name):
+            axes = [f"{name[: at.start()]}{axis}{name[at.end() :]}" for axis in "xyz"]
+            if all(names.count(axis) == 1 for axis in axes):
+                return tuple(names.index(axis) for axis in axes)
     return None
 
 

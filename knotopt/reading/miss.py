@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
+from typing import Any
 
 from knotopt.errors import FileFormatError, KnotoptError
 from knotopt.reading.content import Content
 from knotopt.reading.near_names import unknown
 
 _LONGEST_NAME = 60
-_NO_FORM = "numbers, but no matrix, marks, arc presentation, PD code or curve"
 _OPENING, _CLOSING = "[({", "])}"
 
 
@@ -27,7 +28,8 @@ def miss(content: Content) -> KnotoptError:
     is_short = "\n" not in text and len(text) <= _LONGEST_NAME
     if content.given is None and is_short and not re.search(r"[\[{]", text):
         return unknown(text)
-    return FileFormatError(_of_lists(content) or _bracket(text) or _line(content) or no_knot)
+    wrong = _of_lists(content) or _bracket(content.text) or _line(content)
+    return FileFormatError(wrong or no_knot)
 
 
 def _of_lists(content: Content) -> str | None:
@@ -36,8 +38,24 @@ def _of_lists(content: Content) -> str | None:
     if content.value is None or (content.given is None and not re.search(r"[\[{(]", content.text)):
         return None
     if rows is not None:
-        return f"{len(rows)} rows of {len(rows[0])} {_NO_FORM}"
+        return _of_rows(rows)
     return "lists, but not those of a grid, a code or a curve"
+
+
+def _of_rows(rows: Sequence[Sequence[Any]]) -> str:
+    """Of rows of numbers: how many and how long they are, and which knots they are not."""
+    widths = sorted({*map(len, rows)})
+    if len(widths) > 1:
+        numbers = f"{', '.join(map(str, widths[:-1]))} and {widths[-1]}"
+        return (
+            f"{len(rows)} rows of different lengths, {numbers} numbers: no grid, PD code or curve; "
+            "a DT or Gauss code or a braid word is one row"
+        )
+    are_marks = all(entry in (0, 1, "") for row in rows for entry in row)
+    if are_marks and len(rows) == widths[0]:
+        return f"{len(rows)} rows of 0 and 1, where a matrix has -1, 0 and 1: one -1 and one 1 each"
+    no = "no matrix, marks, arc presentation, PD code or curve"
+    return f"{len(rows)} rows of {widths[0]} numbers, but {no}"
 
 
 def _bracket(text: str) -> str | None:
@@ -71,7 +89,7 @@ def _line(content: Content) -> str | None:
         if not all(isinstance(cell, int) for cell in row)
     ]
     if not wrong:
-        return f"{len(table.rows)} rows of {len(table.rows[0])} {_NO_FORM}"
+        return _of_rows(table.rows)
     if 2 * len(wrong) > len(table.rows) and not table.header:
         return None
     shown = content.text.splitlines()[wrong[0] - 1].strip()

@@ -43,8 +43,8 @@ def read(content: Content, _asked: Asked) -> Reading | None:
     MissingExtraError
         A knot of 11 to 13 crossings without the `knotinfo` extra.
     UnknownKnotError
-        A connected sum of which one summand, but not every one, is a knot; or a grid that is not
-        stored.
+        A connected sum that lacks a summand, or of which one, but not every one, is a knot; or a
+        grid that is not stored.
     """
     text = content.text.strip()
     if len(text) > LONGEST or "\n" in text:
@@ -100,6 +100,8 @@ def _sum(texts: list[str], deep: int) -> _Named | None:
     found = [_knot(text, deep) for text in texts]
     known = [each for each in found if each is not None]
     if len(known) < len(found):
+        if not all(map(str.strip, texts)):
+            raise UnknownKnotError(f"{'#'.join(texts)!r} lacks a summand before or behind a sign #")
         if known:
             raise unknown(texts[found.index(None)].strip())
         return None

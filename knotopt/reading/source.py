@@ -1,7 +1,8 @@
 """Where a knot comes from: the argument itself, a file of any name, standard input.
 
-Text is UTF-8 or, with a byte order mark, UTF-16. Signs and blanks that word processors and PDF
-files put in the place of those on the keyboard are read as these.
+Text is UTF-8 or, with a byte order mark, UTF-16. Lines of remarks before it are left blank. Signs
+and blanks that word processors and PDF files put in the place of those on the keyboard are read as
+these.
 """
 
 from __future__ import annotations
@@ -21,6 +22,9 @@ MAX_BYTES = 4_000_000
 """Longest text: a matrix of size 1,000, or the marks of the largest grid."""
 
 LONGEST_PATH = 4096
+
+REMARK = re.compile(r"\s*(#|%|//)")
+"""How a line begins that says nothing of the knot."""
 
 _SAME = str.maketrans(
     {
@@ -74,7 +78,7 @@ def read_source(knot: str | Path) -> Source:
             raise FileFormatError(f"cannot read {path}: No such file or directory")
         if len(knot) > MAX_BYTES:
             raise FileFormatError(f"the text is longer than {MAX_BYTES // 10**6} MB")
-        return Source(knot.translate(_SAME), "", "as given")
+        return Source(_clean(knot), "", "as given")
     try:
         with path.open("rb") as stream:
             content = _read(stream, str(path))
@@ -123,4 +127,15 @@ def decode(content: bytes, what: str) -> str:
     except UnicodeDecodeError as error:
         name = "UTF-8" if encoding == "utf-8-sig" else "UTF-16"
         raise FileFormatError(f"{what} is not {name} text (byte {error.start})") from error
-    return text.translate(_SAME)
+    return _clean(text)
+
+
+def _clean(text: str) -> str:
+    """The text with the keyboard's signs, and blank lines for the remarks before it."""
+    lines = text.translate(_SAME).splitlines(keepends=True)
+    if len(lines) > 1:  # one line such as "#3_1" is all that there is
+        for k, line in enumerate(lines):
+            if line.strip() and not REMARK.match(line):
+                break
+            lines[k] = "\n"
+    return "".join(lines)

@@ -11,9 +11,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from knotopt.reading.source import REMARK
+
 Cell = int | float | str
 
-_REMARK = re.compile(r"\s*(#|%|//)")
 _NUMBER = re.compile(r"[+-]?(\d{1,30}\.?\d{0,30}|\.\d{1,30})([eE][+-]?\d{1,3})?")
 _SEPARATORS = (";", "\t", "|", ",")
 
@@ -50,7 +51,7 @@ def parse_table(text: str) -> Table | None:
     lines = [
         (number, line)
         for number, line in enumerate(text.splitlines(), 1)
-        if line.strip() and not _REMARK.match(line)
+        if line.strip() and not REMARK.match(line)
     ]
     if len(lines) < 2:
         return None
@@ -106,16 +107,23 @@ def _has_index(cells: Sequence[Sequence[Cell]]) -> bool:
     header, *rows = cells
     counted = [*range(len(rows))]
     firsts = [row[0] for row in rows]
-    if firsts not in (counted, [k + 1 for k in counted]):
+    from_one = [k + 1 for k in counted]
+    if firsts not in (counted, from_one, from_one[::-1]):
         return False
-    return header[0] in ("", "index") or {*map(len, rows)} == {len(header) + 1}
+    is_named = str(header[0]).lower() in ("", "index", "unnamed: 0")  # as pandas has a nameless one
+    return is_named or {*map(len, rows)} == {len(header) + 1}
 
 
 def _is_header(cells: Sequence[Sequence[Any]]) -> bool:
-    """Whether the first row names the columns: by words, or by counting them above as many rows."""
+    """Whether the first row names the columns: by words, or by counting them above as many rows.
+
+    Single letters are names above rows that have no words at all; elsewhere they may be marks.
+    """
     header, *rows = cells
     words = [cell for cell in header if isinstance(cell, str)]
     if any(re.search(r"[^\W_]{2}|[xyzijr]$", word, re.I) for word in words):
-        return not any(isinstance(cell, str) for cell in rows[0])
+        return not any(isinstance(cell, str) and cell for cell in rows[0])
+    if len(words) == len(header) and all(re.match(r"[^\W\d_]", word) for word in words):
+        return not any(isinstance(cell, str) and cell for row in rows for cell in row)
     counted = [*range(len(header))]
     return list(header) in (counted, [k + 1 for k in counted]) and len(rows) == len(header) > 2

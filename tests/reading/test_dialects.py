@@ -10,6 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from knotopt.diagram.grid import GridDiagram
+from knotopt.errors import KnotoptError
 from knotopt.reading.knot import read_knot
 from tests.helpers import dialects
 from tests.helpers.strategies import diagrams
@@ -34,6 +35,38 @@ def test_every_form_is_read_back(
     over = data.draw(st.sampled_from(["rows", "columns"]))
     turned = read_knot(text, over=over, mirror=over == "rows")
     assert turned.diagram.marks == diagram.marks and not turned.ambiguous
+
+
+@given(
+    diagrams(3),
+    st.sampled_from([",", ";", "\t"]),
+    st.sampled_from(["none", "letters", "words"]),
+    st.sampled_from(["none", "up", "down", "from 0"]),
+    st.sampled_from(["", "0"]),
+)
+def test_empty_cells_of_a_matrix_are_zeros(
+    diagram: GridDiagram, separator: str, header: str, index: str, some: str
+) -> None:
+    size = diagram.size
+    cells = [["" if not cell else str(cell) for cell in line] for line in diagram.matrix.tolist()]
+    cells[0] = [cell or some for cell in cells[0]]
+    names = [chr(ord("A") + k) if header == "letters" else f"col{k}" for k in range(size)]
+    if header != "none":
+        cells.insert(0, names)
+        if index != "none":
+            counts = {"up": range(1, size + 1), "down": range(size, 0, -1), "from 0": range(size)}
+            firsts = ["", *map(str, counts[index])]
+            cells = [[first, *row] for first, row in zip(firsts, cells, strict=True)]
+    found = read_knot("\n".join(map(separator.join, cells)))
+    assert (found.form, found.diagram) == ("matrix", diagram)
+
+
+def test_a_spreadsheets_matrix_with_empty_cells() -> None:
+    text = ",A,B,C,D,E\n1,1,,,-1,\n2,,1,,,-1\n3,-1,,1,,\n4,,-1,,1,\n5,,,-1,,1\n"
+    filled = "1 0 0 -1 0\n0 1 0 0 -1\n-1 0 1 0 0\n0 -1 0 1 0\n0 0 -1 0 1\n"
+    assert read_knot(text).diagram == read_knot(filled).diagram
+    with pytest.raises(KnotoptError, match=r"row 3 has one mark \(column 3\)"):
+        read_knot(text.replace("3,-1,", "3,,"))
 
 
 @given(diagrams(), st.booleans())

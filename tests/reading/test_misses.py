@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from knotopt.errors import DiagramError, FileFormatError, GridError, KnotoptError
+from knotopt.errors import DiagramError, FileFormatError, GridError, KnotoptError, UnknownKnotError
 from knotopt.reading.forms import FORMS
 from knotopt.reading.knot import read_knot
 
@@ -51,6 +51,10 @@ MISSES = [
     ("[4, 6, 3]", DiagramError, "entry 3 of the DT code is 3"),
     ("[1, -2, 3, -1, 2, -4]", DiagramError, "crossing 3 is visited once, at 3"),
     ("BR[2, {1, 1, 3}]", DiagramError, "letter 3 of the braid word is 3"),
+    ("4 6 2\n4 6 8 2\n", FileFormatError, "2 rows of different lengths, 3 and 4 numbers: no grid"),
+    ("A,B\n1,1\n1,1\n", FileFormatError, "2 rows of 0 and 1, where a matrix has -1"),
+    ("3_1#", UnknownKnotError, "'3_1#' lacks a summand before or behind a sign #"),
+    ("3_1 ## 4_1", UnknownKnotError, "lacks a summand"),
     ("T(2,4)", GridError, r"T\(2,4\) is a link of 2 components"),
 ]
 

@@ -80,3 +80,39 @@ def test_texts_that_are_no_names_of_files(text: str) -> None:
     assert read_source(text).words == "as given"
     with pytest.raises(KnotoptError):
         read_knot(text)
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "3_1",
+        "PD[X[1,5,2,4], X[3,1,4,6], X[5,3,6,2]]",
+        "[[1,5,2,4],\n# the second\n[3,1,4,6],\n[5,3,6,2]]",
+        "X1524 X3146 X5362",
+        "4 6 2",
+        "DT: bca",
+        "[4, 6, 2]",
+        "O1+U2+O3+U1+O2+U3+",
+        "1, -2, 3, -1, 2, -3",
+        "BR[2, {1, 1, 1}]",
+        "1 1 1",
+        "s1 s1 s1",
+        "aaa",
+    ],
+)
+def test_remarks_before_a_code_are_skipped(tmp_path: Path, code: str) -> None:
+    without = read_knot(code)
+    path = tmp_path / "knot.txt"
+    path.write_text(text := f"# a trefoil [1, 2\n\n  % from a book\n// page 3\n{code}\n")
+    for knot in (text, path):
+        found = read_knot(knot)
+        assert (found.form, found.diagram) == (without.form, without.diagram)
+
+
+def test_lines_are_counted_with_the_remarks_before_them() -> None:
+    with pytest.raises(FileFormatError, match=r"line 3 opens '\['"):
+        read_knot("# one\n\n[1,\n")
+    with pytest.raises(FileFormatError, match="there is nothing in it"):
+        read_knot("# one\n# two\n")
+    with pytest.raises(KnotoptError, match="#3_1"):
+        read_knot("#3_1")
