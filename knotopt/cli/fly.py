@@ -185,15 +185,17 @@ def fly(
     named = read(knot)
     check_size(named.diagram.size, "fly", **{"--supports milp": supports == "milp"})
     sets: Iterable[SupportSet]
+    name, title = named.name, f"{named.name} ({named.source})"
     if supports == FLOWN_TEAM:
-        team = flown_team(named.diagram)
+        team, name, is_mirrored = flown_team(named.diagram)
+        title = f"{name}, the mirror image of {title}" if is_mirrored else title
         sets = [GivenSupports(Cable(team.diagram, team.cut), team.supports)]
         world = replace(world, step=team.step) if step is None else world
     else:
         sets = equally_small(named.diagram, supports, cut, requirements)
-    request = FlightRequest(named.name, Path(supports).name, world, limits, schedule)
+    request = FlightRequest(name, Path(supports).name, world, limits, schedule)
     mission = _mission(sets, request, disturbances, tighten, sim=sim)
-    _finish(mission, f"{named.name} ({named.source})", out, as_json=as_json)
+    _finish(mission, title, out, as_json=as_json)
     if mission.reasons:
         raise typer.Exit(1)
 

@@ -279,6 +279,8 @@ def _check_options(
     """Options that exclude each other are refused."""
     if cut == "all":
         _refuse_any(about_one_cut, "is about one cut: give --cut best or a cut's name")
+    if diagrams and numbers:
+        options.refuse("--forbid, --force", "does not go with --diagrams")
     if diagrams and cut != "best":
         options.refuse("--diagrams", "goes with --cut best")
     if cut in ("best", "all") and numbers:

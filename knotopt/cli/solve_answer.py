@@ -43,7 +43,7 @@ def answer_knot(
         from knotopt.plot.figures import save_figure, smallest_figure
 
         laid = found.laid
-        title = f"{named.name}, cut {laid.cable.cut}: {laid.robots} robots lay this diagram"
+        title = f"{named.name}, cut {laid.cable.cut}: {laid.robots} robots hold every loop"
         save_figure(smallest_figure(laid, title), plot)
         written.append(plot)
     if as_json:
@@ -116,15 +116,17 @@ def _loops(result: MinimalSupports) -> list[list[int]]:
 
 def _show(found: Answer) -> None:
     """Print the answer, its numbers below each other."""
-    names = " or ".join(found.identified.candidates) or "in no table"
+    names = " or ".join(found.identified.candidates) or "not named by the tables"
     also = "" if found.identified.candidates == (found.named.name,) else f" = {names}"
     print(f"{found.named.name}{also} ({found.named.source}): {_in_a_line(found)}\n")
     needed, team = found.known.needed, found.known.flown
+    if found.is_unknot:
+        return
     print_facts(
         [
             ("needed", _counted(needed.robots, f"{needed.why}; {needed.standing}")),
             ("this diagram", _counted(found.laid.robots, _laid(found))),
-            ("flown", _counted(team.robots if team else None, _flown(team))),
+            ("flown", _counted(team.robots if team else None, _flown(team, found.identified.name))),
             ("safe", _counted(found.safe.robots if found.safe else None, _safe(found))),
             ("LCF", _counted(found.lcf.robots, f"the heuristic, cut {found.lcf.cable.cut}")),
             ("every corner", _counted(found.baseline, "a robot at every turning point")),
@@ -138,7 +140,7 @@ def _show(found: Answer) -> None:
 
 def _in_a_line(found: Answer) -> str:
     needed = found.known.needed.robots
-    if needed == 2:
+    if found.is_unknot:
         return "2 robots: nothing to hold open"
     if found.is_settled:
         return f"{needed} robots are needed, and {needed} fly: settled"
@@ -154,24 +156,26 @@ def _counted(robots: int | None, words: str) -> str:
 def _laid(found: Answer) -> str:
     loops = _named_places(_loops(found.laid))
     if not loops:
-        return "lay it: it has no loop"
+        return "it has no loop to hold"
     of = "the loop at" if len(_loops(found.laid)) == 1 else "loops without a common corner at"
-    return f"lay it with straight spans, cut {found.laid.cable.cut}; no fewer: {of} {loops}"
+    return (
+        f"hold every loop of it, cut {found.laid.cable.cut}; no fewer: {of} {loops}; "
+        "no bound for flights"
+    )
 
 
-def _flown(team: FlownTeam | None) -> str:
+def _flown(team: FlownTeam | None, name: str | None) -> str:
     if team is None:
         return "knotopt knows of no team; `knotopt fly --sim` tries one"
-    supports = " ".join(f"p{k}" for k in team.supports)
     return (
-        f"tie it in {team.tied} of {team.flights} simulated flights with noise of "
-        f"{1000 * team.noise:g} mm, cut {team.cut}, {supports}"
+        f"tie it or its mirror image in {team.tied} of {team.flights} simulated flights with noise "
+        f"of {1000 * team.noise:g} mm: `knotopt fly {name} --supports flown --sim`"
     )
 
 
 def _safe(found: Answer) -> str:
     if found.safe is None or found.safe_search is None:
-        return "no safe set is known"
+        return "not looked for: the diagram is too large for span"
     size, openness = found.safe.cable.diagram.size, float(found.safe.requirements.openness)
     return (
         f"keep every loop and threaded region open (span with loops, r {openness:g}), "

@@ -9,12 +9,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from knotopt.errors import RequirementError
 
-STRAIGHT = "the cable between two hovering robots, and beyond the first, is straight in plan"
+STRAIGHT = (
+    "only the leader moves; cable between two hovering robots, and beyond the first, is straight "
+    "in plan"
+)
 NO_SELF_CROSSING = "the leader never crosses its own tether"
 WINDINGS = "the tether slides along laid cable: successive crossings of one winding are neighbours"
 TIGHT = "a winding is drawn tight against the robot behind it before the next one begins"
@@ -55,11 +58,16 @@ class FewestRobots:
 
 
 UNKNOT = FewestRobots(2, "two robots hold the cable's ends", Standing.TRIVIAL, ())
+UNKNOWN = FewestRobots(2, "which knot it is could not be told", Standing.TRIVIAL, ())
 TORUS_SUM = FewestRobots(
     3,
     "two robots lay one straight span, which has no crossing",
     Standing.PROVEN,
     (STRAIGHT, NO_SELF_CROSSING),
+)
+UNTOLD = replace(
+    TORUS_SUM,
+    why="no unknot; its Alexander polynomial does not tell it from a sum of T(2, n)",
 )
 OTHER = FewestRobots(
     4,
@@ -77,9 +85,11 @@ def fewest_by_claim(candidates: Collection[str], alexander: Sequence[int]) -> Fe
     ----------
     candidates : collection of str
         The knots that it can be, as tables or `T(p,q)` name them: m3_1 is the mirror image of 3_1,
-        3_1#m3_1 a connected sum. None if it is in no table.
+        3_1#m3_1 a connected sum. None if it was compared with the tables, the unknot among them,
+        and is in none.
     alexander : sequence of int
-        Its Alexander polynomial, constant term first, which decides where there is no name.
+        Its Alexander polynomial, constant term first, which decides where there is no name; empty
+        if it is not known.
 
     Returns
     -------
@@ -96,14 +106,16 @@ def fewest_by_claim(candidates: Collection[str], alexander: Sequence[int]) -> Fe
     >>> names = ("0_1", "m3_1", "4_1", "3_1#5_1", "T(2,15)")
     >>> [fewest_by_claim([name], ()).robots for name in names]
     [2, 3, 4, 3, 3]
-    >>> fewest_by_claim([], (1, -3, 1)).robots, fewest_by_claim([], (1, -2, 3, -2, 1)).robots
-    (4, 3)
+    >>> unnamed = ((1, -3, 1), (1, -2, 3, -2, 1), (1,), ())
+    >>> [fewest_by_claim([], polynomial).robots for polynomial in unnamed]
+    [4, 3, 4, 2]
     """
     if candidates:
         return min((_of_name(name) for name in candidates), key=lambda each: each.robots)
-    if len(alexander) < 2:
-        return UNKNOT
-    return TORUS_SUM if _is_product(alexander) else OTHER
+    if not alexander:
+        return UNKNOWN
+    # A knot with polynomial 1 that is no unknot is no such sum: theirs have other polynomials.
+    return UNTOLD if len(alexander) > 1 and _is_product(alexander) else OTHER
 
 
 def _of_name(name: str) -> FewestRobots:

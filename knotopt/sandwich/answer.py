@@ -44,7 +44,7 @@ class Answer:
     known : KnownOfKnot
         Whatever its diagram.
     laid : MinimalSupports
-        The least to lay the diagram asked about with straight spans, over its cuts (`loops`).
+        The least to hold every loop of the diagram asked about, over its cuts (`loops`).
     safe_search : DiagramSearch or None
         For the smallest safe set (`span` with loops), over grids of the knot; None where the
         smallest grid at hand is larger than `LARGEST_SAFE`.
@@ -77,9 +77,12 @@ class Answer:
     def is_settled(self) -> bool:
         """Whether as few robots as are needed fly."""
         needed, flown = self.known.needed, self.known.flown
-        if needed.robots == self.laid.robots == 2:
-            return True
-        return flown is not None and flown.robots == needed.robots
+        return self.is_unknot or (flown is not None and flown.robots == needed.robots)
+
+    @property
+    def is_unknot(self) -> bool:
+        """Whether there is nothing to tie."""
+        return self.identified.name == "0_1"
 
 
 def answer(

@@ -53,19 +53,28 @@ def known_of_knot(candidates: Collection[str], alexander: Sequence[int] = ()) ->
     return KnownOfKnot(fewest_by_claim(candidates, alexander), flown)
 
 
-def flown_team(diagram: GridDiagram) -> FlownTeam:
+def flown_team(diagram: GridDiagram) -> tuple[FlownTeam, str, bool]:
     """The smallest team that is known to tie the knot of a diagram, or its mirror image.
+
+    Returns
+    -------
+    FlownTeam
+    str
+        The knot that it ties.
+    bool
+        Whether that is the mirror image of the diagram's.
 
     Raises
     ------
     UnknownKnotError
-        None is.
+        There is none.
 
     Examples
     --------
     >>> from knotopt.diagram.families import torus_knot
-    >>> flown_team(torus_knot(2, 5)).robots
-    3
+    >>> team, knot, is_mirrored = flown_team(torus_knot(2, -5))
+    >>> team.robots, knot, is_mirrored
+    (3, '5_1', True)
     """
     candidates = identify(diagram).candidates
     team = known_of_knot(candidates).flown if candidates else None
@@ -73,4 +82,5 @@ def flown_team(diagram: GridDiagram) -> FlownTeam:
         what = " or ".join(candidates) or "this knot"
         known = ", ".join(flown_teams())
         raise UnknownKnotError(f"no team is known to tie {what}; there are teams for {known}")
-    return team
+    knot = identify(team.diagram).candidates[0]
+    return team, knot, knot not in candidates

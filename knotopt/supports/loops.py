@@ -112,6 +112,6 @@ LOOPS = Formulation(
     is_taut=True,
     has_openness=False,
     adjective="piercing",
-    meaning="the fewest robots that lay this diagram with straight spans; no bound for flights of "
-    "the knot",
+    meaning="the fewest robots that lay this diagram with straight spans, the leader following "
+    "the grid; no bound for flights of the knot",
 )

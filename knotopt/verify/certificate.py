@@ -142,12 +142,23 @@ def _check_bound(content: dict[str, Any], definition: Definition, claim: Claim) 
 
 def _parse(text: str) -> dict[str, Any]:
     try:
-        certificate = json.loads(text)
+        certificate = json.loads(text, object_pairs_hook=_object)
+    except CertificateError:
+        raise
     except (ValueError, RecursionError) as error:
         raise CertificateError(f"not JSON, or cut off: {error}") from error
     if not isinstance(certificate, dict) or certificate.get("format") != FORMAT:
         raise CertificateError(f'not a certificate: no "format": "{FORMAT}"')
     return certificate
+
+
+def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """A JSON object whose keys are all different: of two values one would count unseen."""
+    content = dict(pairs)
+    if len(content) < len(pairs):
+        twice = next(key for number, (key, _) in enumerate(pairs) if key in dict(pairs[:number]))
+        raise CertificateError(f"the key {twice!r} stands twice in one object")
+    return content
 
 
 def _cell(mark: Any) -> Cell:

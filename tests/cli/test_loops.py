@@ -20,7 +20,7 @@ def test_solve_says_what_it_is_the_least_of(cli: Cli, tmp_path: Path) -> None:
     assert status == 0 and picture.stat().st_size > 10_000
     for words in (
         "4 robots instead of 18",
-        "the fewest robots that lay this diagram with straight spans; no bound for flights of",
+        "the fewest robots that lay this diagram with straight spans, the leader following the",
         "no set of 3 robots is piercing over 8 cuts",
         "c2[4,6] c7[6,2]: no two share a turning point, so each needs a support of its own",
         "piercing by the definition",

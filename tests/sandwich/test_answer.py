@@ -9,9 +9,10 @@ import pytest
 from knotopt.cable.cable import Cable
 from knotopt.cable.cut import crossing_free_cuts
 from knotopt.catalogue.knots import shipped_knots
+from knotopt.errors import UnknownKnotError
 from knotopt.reading.knot import read_knot
 from knotopt.sandwich.answer import Answer, answer
-from knotopt.sandwich.known import known_of_knot
+from knotopt.sandwich.known import flown_team, known_of_knot
 from knotopt.search.budget import Budget
 from knotopt.verify.loops import check_loops
 from knotopt.verify.registry import DEFINITIONS
@@ -66,3 +67,28 @@ def test_a_mirror_image_has_the_same_team() -> None:
 def test_needed_of_the_catalogue() -> None:
     three = [name for name in shipped_knots() if known_of_knot([name]).needed.robots == 3]
     assert three == ["3_1", "5_1", "7_1", "9_1"]
+
+
+def test_a_knot_in_no_table_is_no_unknot() -> None:
+    """The pretzel knot P(-3, 5, 7) has Alexander polynomial 1."""
+    twists = (-3, 5, 7)
+    from spherogram import RationalTangle
+
+    tangle = RationalTangle(1, twists[0]) + RationalTangle(1, twists[1])
+    link = (tangle + RationalTangle(1, twists[2])).numerator_closure()
+    found = answer(read_knot(link), budget=FEW)
+    assert found.identified.candidates == () and found.identified.invariants.alexander == (1,)
+    assert found.known.needed.robots == 4 and not found.is_unknot and not found.is_settled
+
+
+def test_an_unknot_is_settled_on_any_diagram() -> None:
+    marks = [[1, 3], [1, 5], [2, 1], [2, 4], [3, 1], [3, 2], [4, 2], [4, 3], [5, 4], [5, 5]]
+    found = answer(read_knot(marks), budget=FEW)
+    assert found.is_unknot and found.is_settled and found.laid.robots == 3
+
+
+def test_a_flown_team_says_which_of_two_mirror_images_it_ties() -> None:
+    assert flown_team(read_knot("3_1").diagram)[1:] == ("3_1", False)
+    assert flown_team(read_knot("m3_1").diagram)[1:] == ("3_1", True)
+    with pytest.raises(UnknownKnotError, match="no team is known to tie 10_165"):
+        flown_team(read_knot("10_165").diagram)

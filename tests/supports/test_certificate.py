@@ -250,3 +250,11 @@ def test_the_kept_certificates_of_table1(formulation: str) -> None:
             row[f"{formulation}_cut"],
         )
         assert sorted(verdict.grid) == sorted(map(tuple, json.loads(row["grid"])))
+
+
+def test_a_key_that_stands_twice_is_refused() -> None:
+    text = prove("3_1", read_knot("3").diagram, Requirements("loops"))
+    twice = text.replace('"robots":', '"robots": 9, "robots":', 1)
+    assert twice != text
+    with pytest.raises(CertificateError, match="the key 'robots' stands twice"):
+        check_certificate(twice)
