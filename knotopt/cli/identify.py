@@ -54,11 +54,16 @@ def identified_in_words(named: NamedDiagram, found: Identified) -> str:
             return f"{words}too many crossings to compare ({found.crossings})"
         words += f"no knot of up to {found.table_crossings} crossings"
         return words + ("" if found.table_crossings > 10 else " (the knotinfo extra goes to 13)")
+    return f"{candidates_in_words(found)}, by {_listed(found.by)}"
+
+
+def candidates_in_words(found: Identified) -> str:
+    """`3_1#3_1 or 3_1#m3_1`, `3_1 or its mirror image`; empty if there are none."""
     names = " or ".join(found.candidates[:SHOWN])
     if len(found.candidates) > SHOWN:
         names += f" or {len(found.candidates) - SHOWN} others"
-    mirror = " or its mirror image" if found.up_to_mirror else ""
-    return f"{names}{mirror}, by {_listed(found.by)}"
+    mirror = "its mirror image" if len(found.candidates) == 1 else "their mirror images"
+    return f"{names} or {mirror}" if found.up_to_mirror and names else names
 
 
 def identified_json(named: NamedDiagram, found: Identified) -> dict[str, Any]:

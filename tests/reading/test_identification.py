@@ -10,6 +10,8 @@ import spherogram
 
 from knotopt.identify.identify import identify
 from knotopt.planar.dt import dt_code, dt_flips, from_dt
+from knotopt.planar.embedding import parts
+from knotopt.planar.from_grid import planar_diagram
 from knotopt.planar.gauss import gauss_code, parts_by_themselves
 from knotopt.planar.planar_diagram import PlanarDiagram
 from knotopt.planar.small_grid import small_grid
@@ -19,26 +21,24 @@ from knotopt.reading.knot import read_knot
 
 def all_hands(diagram: PlanarDiagram) -> Iterator[PlanarDiagram]:
     """The diagrams with the DT code of this one, by their flips."""
-    first = dict.fromkeys(crossing for crossing, _ in diagram.visits)
     order = [crossing for crossing, _ in diagram.visits[::2]]
     code, flips = dt_code(diagram), dt_flips(diagram)
-    parts = parts_of(diagram)
-    assert len(first) == len(order)
-    for turned in product((False, True), repeat=len(parts)):
-        other = {c for part, turn in zip(parts, turned, strict=True) if turn for c in part}
+    mirrored_together = parts([crossing for crossing, _ in diagram.visits])
+    for turned in product((False, True), repeat=len(mirrored_together)):
+        other = {
+            c for part, turn in zip(mirrored_together, turned, strict=True) if turn for c in part
+        }
         yield from_dt(code, [f ^ (c in other) for c, f in zip(order, flips, strict=True)])
 
 
-def parts_of(diagram: PlanarDiagram) -> list[list[int]]:
-    """Crossings that are mirrored together."""
-    from knotopt.planar.embedding import parts
-
-    return parts([crossing for crossing, _ in diagram.visits])
+def from_name(name: str) -> PlanarDiagram:
+    """A diagram of the knot of that name, its summands one after the other."""
+    return planar_diagram(read_knot(name).diagram)
 
 
 @pytest.mark.parametrize("name", ["3_1#3_1", "3_1#m5_2", "3_1#4_1", "3_1#m3_1#m3_1"])
 def test_all_diagrams_of_a_code_are_of_the_candidates(name: str) -> None:
-    code = dt_code(read_knot(name.replace("m", "")).planar or from_name(name))
+    code = dt_code(from_name(name))
     found = identify_read(read_knot(f"DT: {[code]}"))
     meant = {knot.name for knot in found.knots}
     if found.up_to_mirror:
@@ -46,13 +46,6 @@ def test_all_diagrams_of_a_code_are_of_the_candidates(name: str) -> None:
     assert found.proven
     names = {identify(small_grid(each)).name for each in all_hands(from_dt(code))}
     assert names == meant
-
-
-def from_name(name: str) -> PlanarDiagram:
-    """A diagram of the knot of that name, its summands one after the other."""
-    from knotopt.planar.from_grid import planar_diagram
-
-    return planar_diagram(read_knot(name).diagram)
 
 
 @pytest.mark.parametrize("code", ["[(4, 6, 2, 10, 12, 8)]", "[(4, 6, 2, 10, 12, 14, 8)]"])
@@ -75,11 +68,13 @@ def test_unsigned_gauss_codes_leave_the_same_open(name: str) -> None:
 
 
 def test_parts_are_the_summands() -> None:
-    parts = parts_by_themselves(from_dt([4, 6, 2, 10, 12, 14, 8]))
-    assert [identify(small_grid(part)).name for part in parts] == ["3_1", "4_1"]
+    found = parts_by_themselves(from_dt([4, 6, 2, 10, 12, 14, 8]))
+    assert [identify(small_grid(part)).name for part in found] == ["3_1", "4_1"]
 
 
-def test_a_code_of_few_crossings_is_proven() -> None:
-    """The grid it is drawn on may have more crossings than the tables, the code has not."""
+def test_the_code_itself_is_compared() -> None:
+    """The grid that it is drawn on may have more crossings than the tables, the code has not."""
     named = read_knot("DT: [(4, 8, 10, 2, 12, 6)]")
-    assert identify_read(named).proven
+    assert named.planar is not None and identify_read(named).proven
+    granny = read_knot("granny", mirror=True)
+    assert identify_read(granny).up_to_mirror and identify_read(granny).name == "m3_1#m3_1"
