@@ -36,7 +36,7 @@ ALLOWED: Mapping[str, str] = {
     "catalogue": "errors files diagram frames",
     "identify": "errors diagram planar cable catalogue",
     "topology": "showing errors arrays planar cable",
-    "reading": "showing errors arrays diagram planar cable catalogue topology",
+    "reading": "showing errors arrays diagram planar cable catalogue identify topology",
     # The judges.
     "verify": "errors arrays topology",
     # The makers, each with what its results are judged by.

@@ -1,7 +1,7 @@
 """The options by which a KNOT is read, of every command that takes one, and what was read.
 
 A form that leaves open which of two mirror images it shows is read in that form's own way; a line
-on the error stream then says so, unless the command itself does.
+on the error stream then says so, unless the command itself does or --mirror chose the other way.
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ def read(knot: str | Path, *, says: bool = False) -> NamedDiagram:
     from knotopt.reading.knot import read_knot
 
     named = read_knot(knot, **asked())
-    if named.ambiguous and not says:
+    if named.ambiguous and not says and not asked().get("mirror"):
         say_reading(named.form, named.notes)
     return named
 

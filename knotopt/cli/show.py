@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -47,7 +47,7 @@ def show(
     from knotopt.cli.drawing import draw_text
     from knotopt.cli.identify import identified_in_words, identified_json
     from knotopt.diagram.simplify import simplify
-    from knotopt.identify.identify import identify
+    from knotopt.reading.identification import identify_read
 
     named = read(knot, says=True)
     check_size(named.diagram.size, "show", **{"--plot": plot})
@@ -60,16 +60,17 @@ def show(
         from knotopt.plot.figures import cable_figure, save_figure
 
         save_figure(cable_figure(cable, f"{named.name}, cut {cable.cut}"), plot)
-    found = None if named.prime_knot else identify(simplest.diagram, planar=named.planar)
+    simpler = replace(named, diagram=simplest.diagram)
+    found = None if named.prime_knot else identify_read(simpler)
     content = _json(named, cable, simplest, polynomial)
-    content["identified"] = None if found is None else identified_json(found)
+    content["identified"] = None if found is None else identified_json(named, found)
     if as_json:
         print_json(content)
         return
     print(draw_text(cable), end="\n\n")
     facts = _facts(content, len(simplest.crossings))
     if found is not None:
-        words = identified_in_words(found, up_to_mirror=named.ambiguous)
+        words = identified_in_words(named, found)
         facts.insert([name for name, _ in facts].index("grid size"), ("identified", words))
     print_facts(facts)
     print_written(plot)

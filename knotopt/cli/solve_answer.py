@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from knotopt.cli.identify import candidates_in_words
 from knotopt.cli.printing import print_facts, print_json, print_note, print_written
 from knotopt.cli.progress import status_line
 from knotopt.cli.reading import read
@@ -59,6 +60,7 @@ def _json(found: Answer) -> dict[str, Any]:
     return {
         "knot": found.named.name,
         "identified": list(found.identified.candidates),
+        "up_to_mirror_image": found.identified.up_to_mirror,
         "settled": found.is_settled,
         "needed": {
             "robots": needed.robots,
@@ -116,9 +118,7 @@ def _loops(result: MinimalSupports) -> list[list[int]]:
 
 def _show(found: Answer) -> None:
     """Print the answer, its numbers below each other."""
-    names = " or ".join(found.identified.candidates) or "not named by the tables"
-    also = "" if found.identified.candidates == (found.named.name,) else f" = {names}"
-    print(f"{found.named.name}{also} ({found.named.source}): {_in_a_line(found)}\n")
+    print(f"{_heading(found)} ({found.named.source}): {_in_a_line(found)}\n")
     needed, team = found.known.needed, found.known.flown
     if found.is_unknot:
         return
@@ -136,6 +136,16 @@ def _show(found: Answer) -> None:
         print_note("assumed: " + "; ".join(needed.assumptions))
     if needed.against:
         print_note("outside the assumptions: " + needed.against)
+
+
+def _heading(found: Answer) -> str:
+    """What was asked for, and which knots it may be: `T(2,3) = 3_1`, `3_1 or its mirror image`."""
+    from knotopt.reading.identification import name_given
+
+    name, names = found.named.name, candidates_in_words(found.identified)
+    if name in found.identified.candidates:
+        return name_given(found.named, found.identified) or names
+    return f"{name} = {names or 'not named by the tables'}"
 
 
 def _in_a_line(found: Answer) -> str:

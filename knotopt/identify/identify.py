@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import islice, product
 
 from knotopt.diagram.grid import GridDiagram
 from knotopt.diagram.simplify import simplify
@@ -15,7 +14,7 @@ from knotopt.identify.colourings import colouring_polynomial
 from knotopt.identify.finite_groups import ConjugacyClass, alternating_group, psl2
 from knotopt.identify.invariants import Invariants, invariants
 from knotopt.identify.jones import jones_polynomial
-from knotopt.identify.summands import KnotSum, crossings_in_table, knots_with
+from knotopt.identify.summands import KnotSum, crossings_in_table, knots_with, sums
 from knotopt.planar.from_grid import planar_diagram
 from knotopt.planar.loosened import loosened
 from knotopt.planar.planar_diagram import PlanarDiagram
@@ -28,7 +27,6 @@ ALWAYS: Groups = {"PSL(2,5)": partial(psl2, 5), "PSL(2,7)": partial(psl2, 7)}
 IF_NEEDED: Groups = {"PSL(2,11)": partial(psl2, 11), "A7": partial(alternating_group, 7)}
 """Those that only decide between candidates; the alternating group also between mutants."""
 MAX_SPLIT = 40  # size of a grid that is walked about to find a connected sum
-MOST_COMBINATIONS = 100  # of candidates for the summands
 
 
 @dataclass(frozen=True)
@@ -37,36 +35,46 @@ class Identified:
 
     Attributes
     ----------
-    candidates : tuple of str
-        Names of the knots of the tables that have all invariants of this one: m8_19 is the mirror
-        image of 8_19, 3_1#m3_1 a connected sum. One: the knot is identified. None: it is not in the
-        tables.
+    knots : tuple of KnotSum
+        The knots of the tables that have all invariants of this one. One: the knot is identified.
+        None: it is not in the tables.
     by : tuple of str
         What the candidates agree with it in: "Alexander polynomial", ...
     table_crossings : int
         The crossing number up to which all prime knots were compared.
     proven : bool
-        Whether it is the knot named for certain: if each summand's diagram has no more crossings
-        than knots of the tables, which are complete; by isometries of complements; or by the grid
-        of size 2, the unknot's. Else a knot that is in no table may have the same invariants.
-    is_amphicheiral : bool
-        Whether each candidate is its own mirror image.
+        Whether it is the knot named for certain, or one of those named: if each summand's diagram
+        has no more crossings than knots of the tables, which are complete; by isometries of
+        complements; or by the grid of size 2, the unknot's. Else a knot that is in no table may
+        have the same invariants.
     invariants : Invariants
         Of the whole knot.
     grid : GridDiagram
         The simplified diagram.
     crossings : int
         Of the planar diagram compared, without those that a summand of an unknot has.
+    up_to_mirror : bool
+        Whether the mirror images of the candidates are meant as well.
     """
 
-    candidates: tuple[str, ...]
+    knots: tuple[KnotSum, ...]
     by: tuple[str, ...]
     table_crossings: int
     proven: bool
-    is_amphicheiral: bool
     invariants: Invariants
     grid: GridDiagram
     crossings: int
+    up_to_mirror: bool = False
+
+    @property
+    def candidates(self) -> tuple[str, ...]:
+        """The names of `knots`: m8_19 is the mirror image of 8_19, 3_1#m3_1 a connected sum."""
+        return tuple(knot.name for knot in self.knots)
+
+    @property
+    def is_amphicheiral(self) -> bool:
+        """Whether each candidate is its own mirror image."""
+        return bool(self.knots) and all(knot.is_amphicheiral for knot in self.knots)
 
     @property
     def name(self) -> str | None:
@@ -132,13 +140,11 @@ def identify(
             split = split_sum(grid, seed=seed)
             if len(split) > 1:  # a sum in disguise
                 parts = [_compare(loosened(planar_diagram(part)), prove=prove) for part in split]
-    knots = _sums([part.knots for part in parts])
     return Identified(
-        tuple(knot.name for knot in knots),
+        sums([part.knots for part in parts]),
         tuple(dict.fromkeys(name for part in parts for name in part.by)),
         crossings_in_table(),
         all(part.proven for part in parts),
-        bool(knots) and all(knot.is_amphicheiral for knot in knots),
         invariants(planar),
         grid,
         sum(part.crossings for part in parts),
@@ -207,9 +213,3 @@ def _agreeing(
     if value is None:
         return knots
     return [knot for knot in knots if invariant(knot.planar) in (None, value)]
-
-
-def _sums(parts: Sequence[list[KnotSum]]) -> list[KnotSum]:
-    """The sums of one candidate of each part."""
-    sums = (sum(chosen, KnotSum(())) for chosen in product(*parts))
-    return [*dict.fromkeys(islice(sums, MOST_COMBINATIONS))]

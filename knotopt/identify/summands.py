@@ -5,7 +5,7 @@ polynomial.
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import product
@@ -26,6 +26,8 @@ from knotopt.planar.planar_diagram import PlanarDiagram
 
 Coefficients = tuple[int, ...]
 
+MOST_SUMS = 100  # of candidates for the summands
+
 
 @dataclass(frozen=True)
 class Summand:
@@ -43,6 +45,11 @@ class Summand:
     def signature(self) -> int:
         """The signature, in KnotInfo's sign."""
         return -self.knot.signature if self.mirrored else self.knot.signature
+
+    @property
+    def mirror(self) -> Summand:
+        """The mirror image."""
+        return self if self.knot.is_amphicheiral else Summand(self.knot, not self.mirrored)
 
     @property
     def diagram(self) -> GridDiagram:
@@ -80,6 +87,11 @@ class KnotSum:
                 hands[each.knot.name] += -1 if each.mirrored else 1
         return not any(hands.values())
 
+    @property
+    def mirror(self) -> KnotSum:
+        """The mirror image."""
+        return KnotSum(tuple(sorted((each.mirror for each in self.summands), key=_place)))
+
     @cached_property
     def planar(self) -> PlanarDiagram:
         """A planar diagram."""
@@ -109,6 +121,15 @@ def knots_with(alexander: Coefficients, signature: int) -> list[KnotSum]:
         if len(factors) > 1:
             found += _sums(factors)
     return [knot for knot in dict.fromkeys(found) if knot.signature == signature]
+
+
+def sums(parts: Sequence[Sequence[KnotSum]]) -> tuple[KnotSum, ...]:
+    """The sums of one candidate of each part, each once, and no more than `MOST_SUMS`."""
+    found: tuple[KnotSum, ...] = (KnotSum(()),)
+    for part in parts:
+        more = dict.fromkeys(knot + other for knot in found for other in part)
+        found = tuple(more)[:MOST_SUMS]
+    return found
 
 
 def crossings_in_table() -> int:

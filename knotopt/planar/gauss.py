@@ -108,6 +108,24 @@ def up_to_mirror(visits: Sequence[int], over: Sequence[bool]) -> PlanarDiagram:
     return from_visits(visits, over, signs)
 
 
+def parts_by_themselves(diagram: PlanarDiagram) -> tuple[PlanarDiagram, ...]:
+    """Each part that can be reflected by itself, closed up: the knot is their connected sum.
+
+    Examples
+    --------
+    >>> two = from_gauss([1, -2, 3, -1, 2, -3, 4, -5, 6, -4, 5, -6])
+    >>> [len(part.crossings) for part in parts_by_themselves(two)]
+    [3, 3]
+    """
+    found = []
+    for part in parts([crossing for crossing, _ in diagram.visits]):
+        index = {crossing: place for place, crossing in enumerate(part)}
+        own = [(index[crossing], over) for crossing, over in diagram.visits if crossing in index]
+        signs = [diagram.signs[crossing] for crossing in part]
+        found.append(from_visits([c for c, _ in own], [over for _, over in own], signs))
+    return tuple(found)
+
+
 def gauss_code(diagram: PlanarDiagram) -> tuple[int, ...]:
     """Gauss code, length 2C: +k for the over and -k for the under visit of crossing k.
 

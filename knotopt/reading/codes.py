@@ -19,11 +19,11 @@ from collections.abc import Collection, Sequence
 from typing import Any
 
 from knotopt.errors import DiagramError
-from knotopt.planar.embedding import parts
+from knotopt.planar.gauss import parts_by_themselves
 from knotopt.planar.planar_diagram import PlanarDiagram
 from knotopt.reading.content import Content
 from knotopt.reading.lists import Lists
-from knotopt.reading.record import Asked
+from knotopt.reading.record import Asked, Reading, ReadSummand
 
 _PLAIN = ("array", "list", "tuple", "vector", "matrix")
 
@@ -94,16 +94,17 @@ def looks_like_gauss(numbers: Sequence[int]) -> bool:
     return 2 * paired >= len(either) > 0
 
 
-def up_to_mirror(diagram: PlanarDiagram) -> tuple[str, ...]:
-    """What a code without crossing signs leaves open, as a note; none for what is no knot.
+def up_to_mirror(diagram: PlanarDiagram) -> Reading:
+    """The reading of a code without crossing signs: what it leaves open, if it is a knot.
 
     Parts of the diagram of one or two crossings are no knots, so that nothing depends on theirs.
     """
-    found = parts([crossing for crossing, _ in diagram.visits])
-    knotted = sum(len(part) > 2 for part in found)
-    if knotted > 1:
-        return (f"up to mirror image, of each of the diagram's {knotted} parts by itself",)
-    return ("up to mirror image",) if knotted else ()
+    knotted = [part for part in parts_by_themselves(diagram) if len(part.crossings) > 2]
+    if len(knotted) < 2:
+        return Reading(diagram, ("up to mirror image",) * len(knotted), ambiguous=bool(knotted))
+    note = f"up to mirror image, of each of the diagram's {len(knotted)} parts by itself"
+    summands = tuple(ReadSummand(part, either_hand=True) for part in knotted)
+    return Reading(diagram, (note,), ambiguous=True, summands=summands)
 
 
 def whole(entry: Any, what: str) -> int:

@@ -61,8 +61,7 @@ def read(content: Content, asked: Asked) -> Reading | None:
 def _reading(numbers: Sequence[int], flips: list[int] | None) -> Reading:
     check_crossings(len(numbers))
     diagram = from_dt(numbers, flips)
-    notes = up_to_mirror(diagram) if flips is None else ()
-    return Reading(diagram, notes, ambiguous=bool(notes))
+    return up_to_mirror(diagram) if flips is None else Reading(diagram)
 
 
 def _is_code(word: str) -> bool:

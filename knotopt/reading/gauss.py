@@ -58,8 +58,7 @@ def read(content: Content, asked: Asked) -> Reading | None:
 def _reading(code: list[int], signs: list[int] | None) -> Reading:
     check_crossings(len(code) // 2)
     diagram = from_gauss(code, signs)
-    notes = up_to_mirror(diagram) if signs is None else ()
-    return Reading(diagram, notes, ambiguous=bool(notes))
+    return up_to_mirror(diagram) if signs is None else Reading(diagram)
 
 
 def _oriented(value: Any) -> tuple[list[int], list[int]] | None:

@@ -138,6 +138,7 @@ def _finished(found: Reading, title: str, source: Source, *, mirror: bool) -> Na
         tuple(found.notes),
         found.ambiguous,
         found.diagram if isinstance(found.diagram, PlanarDiagram) else None,
+        found.summands,
     )
     return _mirrored(named) if mirror else named
 
@@ -151,7 +152,7 @@ def _mirrored(named: NamedDiagram) -> NamedDiagram:
         planar=named.planar and named.planar.mirrored,
         prime_knot=None,
         notes=(*named.notes, "mirror image, as asked"),
-        ambiguous=False,
+        summands=tuple(summand.mirrored for summand in named.summands),
     )
 
 

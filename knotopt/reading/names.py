@@ -18,7 +18,7 @@ from knotopt.diagram.sums import connected_sum
 from knotopt.errors import UnknownKnotError
 from knotopt.reading.content import Content
 from knotopt.reading.near_names import unknown
-from knotopt.reading.record import Asked, Reading
+from knotopt.reading.record import Asked, Reading, ReadSummand
 
 LONGEST = 200
 _DEEPEST = 10  # mirror images of mirror images
@@ -63,6 +63,7 @@ class _Named:
     notes: tuple[str, ...] = ()
     prime_knot: PrimeKnot | None = None
     ambiguous: bool = False
+    summands: tuple[ReadSummand, ...] = ()
 
 
 def _knot(text: str, deep: int) -> _Named | None:
@@ -114,6 +115,18 @@ def _sum(texts: list[str], deep: int) -> _Named | None:
         "connected sum",
         tuple(dict.fromkeys(note for each in knotted for note in each.notes)),
         ambiguous=any(each.ambiguous for each in knotted),
+        summands=_open_summands(knotted),
+    )
+
+
+def _open_summands(knots: list[_Named]) -> tuple[ReadSummand, ...]:
+    """The summands, if any may as well be its mirror image."""
+    if not any(each.ambiguous for each in knots):
+        return ()
+    return tuple(
+        summand
+        for each in knots
+        for summand in each.summands or (ReadSummand(each.diagram, each.ambiguous),)
     )
 
 
@@ -128,6 +141,7 @@ def _mirrored(knot: _Named) -> _Named:
         diagram=knot.diagram.mirrored,
         notes=notes,
         prime_knot=None,
+        summands=tuple(summand.mirrored for summand in knot.summands),
     )
 
 

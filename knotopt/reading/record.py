@@ -28,6 +28,26 @@ class Asked:
 
 
 @dataclass(frozen=True)
+class ReadSummand:
+    """A summand of what was read.
+
+    Attributes
+    ----------
+    diagram : GridDiagram or PlanarDiagram
+    either_hand : bool
+        Whether it may as well be its mirror image, whatever the other summands are.
+    """
+
+    diagram: GridDiagram | PlanarDiagram
+    either_hand: bool
+
+    @property
+    def mirrored(self) -> ReadSummand:
+        """The mirror image."""
+        return ReadSummand(self.diagram.mirrored, self.either_hand)
+
+
+@dataclass(frozen=True)
 class Reading:
     """What one form's reader understood.
 
@@ -45,6 +65,8 @@ class Reading:
         The catalogue's entry, if the knot is one of it.
     ambiguous : bool
         Whether the content may as well mean the mirror image, and one of the two was chosen.
+    summands : tuple of ReadSummand
+        Of an ambiguous connected sum: which of them may as well be mirror images, each by itself.
     """
 
     diagram: GridDiagram | PlanarDiagram
@@ -53,6 +75,7 @@ class Reading:
     source: str | None = None
     prime_knot: PrimeKnot | None = None
     ambiguous: bool = False
+    summands: tuple[ReadSummand, ...] = ()
 
 
 @dataclass(frozen=True, repr=False)
@@ -76,6 +99,8 @@ class NamedDiagram(ShownShort):
         Whether what was read may as well mean the mirror image, and one of the two was chosen.
     planar : PlanarDiagram or None
         The diagram that the grid was drawn from, if it was given by a code.
+    summands : tuple of ReadSummand
+        Of an ambiguous connected sum: which of them may as well be mirror images, each by itself.
     """
 
     name: str
@@ -86,6 +111,7 @@ class NamedDiagram(ShownShort):
     notes: tuple[str, ...] = ()
     ambiguous: bool = False
     planar: PlanarDiagram | None = None
+    summands: tuple[ReadSummand, ...] = ()
 
     @property
     def in_words(self) -> str:

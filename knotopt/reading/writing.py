@@ -1,7 +1,7 @@
 """A knot written in the forms that other programs, and this package's reader, take.
 
-All of them are of the closed knot in its direction "+"; the DT code alone says nothing of
-chirality.
+All of them are of the closed knot in its direction "+", and tell it from its mirror image: the DT
+code by SnapPy's flips.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from knotopt.diagram.grid import GridDiagram
 from knotopt.diagram.lifted import lifted
 from knotopt.errors import DiagramError
 from knotopt.planar.braid_of_grid import braid_of_grid
-from knotopt.planar.dt import dt_code
+from knotopt.planar.dt import dt_code, dt_flips
 from knotopt.planar.from_grid import planar_diagram
 from knotopt.planar.gauss import gauss_letters
 from knotopt.planar.planar_diagram import PlanarDiagram
@@ -52,7 +52,7 @@ def write_knot(diagram: GridDiagram, form: str) -> str:
     [[4, 2, 5, 1], [2, 6, 3, 5], [6, 4, 1, 3]]
     O1+U2+O3+U1+O2+U3+
     BR[2, {1, 1, 1}]
-    DT: [(4, 6, 2)]
+    DT: [(4, 6, 2)], [0, 0, 1]
     """
     if form not in WRITTEN_FORMS:
         raise DiagramError(f"no form is named {form!r}: knots are written as {LISTED_FORMS}")
@@ -70,8 +70,8 @@ def _pd(diagram: GridDiagram) -> str:
 
 
 def _dt(diagram: GridDiagram) -> str:
-    labels = ", ".join(map(str, dt_code(_planar(diagram))))
-    return f"DT: [({labels})]\n"
+    planar = _planar(diagram)
+    return f"DT: {[dt_code(planar)]}, {[*dt_flips(planar)]}\n"
 
 
 def _gauss(diagram: GridDiagram) -> str:
@@ -127,7 +127,7 @@ def _obj(diagram: GridDiagram) -> str:
 
 WRITTEN_FORMS: Mapping[str, WrittenForm] = {
     "pd": WrittenForm("PD code", _pd),
-    "dt": WrittenForm("DT code, up to mirror image", _dt),
+    "dt": WrittenForm("DT code with SnapPy's flips", _dt),
     "gauss": WrittenForm("Gauss code with signs", _gauss),
     "braid": WrittenForm("braid word", _braid),
     "grid": WrittenForm("marks [column, row], columns over rows", _grid),

@@ -13,7 +13,8 @@ from formulations.backends import DEFAULT
 from formulations.solution import Limits
 from knotopt.catalogue.stored_grids import stored_grid
 from knotopt.diagram.grid import GridDiagram
-from knotopt.identify.identify import Identified, identify
+from knotopt.identify.identify import Identified
+from knotopt.reading.identification import identify_read
 from knotopt.reading.record import NamedDiagram
 from knotopt.sandwich.known import KnownOfKnot, known_of_knot
 from knotopt.search.budget import Budget
@@ -116,7 +117,7 @@ def answer(
     >>> found.lcf.robots, found.baseline, found.is_settled
     (5, 10, True)
     """
-    identified = identify(named.diagram, seed=seed)
+    identified = identify_read(named, seed=seed)
     known = known_of_knot(identified.candidates, identified.invariants.alexander or ())
     laid = best_supports(named.diagram, Requirements("loops"), limits=limits).best
     start = min(named.diagram, identified.grid, key=lambda grid: grid.size)

@@ -29,6 +29,50 @@ def test_a_form_without_chirality_is_up_to_mirror(cli: Cli) -> None:
     assert cli.json("identify", "trefoil")["up_to_mirror_image"] is True
 
 
+@pytest.mark.parametrize("knot", ["trefoil", "DT: [(4, 6, 2)]"])
+def test_mirroring_decides_nothing_that_is_open(cli: Cli, knot: str) -> None:
+    status, out, err = cli("identify", knot, "--mirror")
+    assert (status, err) == (0, "") and "m3_1 or its mirror image, by" in out
+    assert cli.json("identify", knot, "--mirror")["up_to_mirror_image"] is True
+
+
+TWO_TREFOILS = ["3_1#3_1", "3_1#m3_1", "m3_1#m3_1"]
+
+
+@pytest.mark.parametrize("knot", ["DT: [(4, 6, 2, 10, 12, 8)]", "trefoil#trefoil"])
+@pytest.mark.parametrize("options", [(), ("--mirror",)])
+def test_every_hand_of_every_summand_is_named(
+    cli: Cli, knot: str, options: tuple[str, ...]
+) -> None:
+    found = cli.json("identify", knot, *options)
+    assert sorted(found["candidates"]) == TWO_TREFOILS
+    assert found["identified"] is None and found["proven"] and found["amphicheiral"] is False
+    _, out, _ = cli("identify", knot, *options)
+    assert "or its mirror image," not in out.split("\nknot", 1)[1]
+    assert "proven         yes, that it is one of these" in out
+    shown = cli.json("show", knot, *options)["identified"]
+    assert sorted(shown["candidates"]) == TWO_TREFOILS
+
+
+def test_summands_that_are_certain_stay_so(cli: Cli) -> None:
+    assert cli.json("identify", "trefoil#m3_1")["candidates"] == ["3_1#m3_1", "m3_1#m3_1"]
+    _, out, _ = cli("identify", "trefoil#4_1")
+    assert "3_1#4_1 or its mirror image, by" in out
+    _, out, _ = cli("identify", "granny")
+    assert "3_1#3_1 or its mirror image, by" in out
+    assert cli.json("identify", "3_1#m3_1")["identified"] == "3_1#m3_1"
+
+
+def test_names_given_are_said(cli: Cli) -> None:
+    found = cli.json("identify", "8_18")
+    assert found["proven"] is False and found["given_name"] == "8_18"
+    for name in ("8_18", "m8_18"):
+        assert "proven         by name: it was asked for as 8_18" in cli("identify", name)[1]
+    assert cli.json("identify", "trefoil")["given_name"] is None
+    _, out, _ = cli("identify", "T(12,13)")
+    assert "knot           T(12,13), by name; too many crossings to compare" in out
+
+
 def test_a_code_of_few_crossings_is_compared_as_it_is(cli: Cli) -> None:
     code = "PD[X[1,4,2,5], X[3,8,4,9], X[9,12,10,13], X[13,17,14,16], X[5,15,6,14], X[15,7,16,6], "
     code += "X[11,18,12,1], X[17,10,18,11], X[7,2,8,3]]"
@@ -43,7 +87,11 @@ def test_the_unknot_and_a_knot_in_no_table(cli: Cli) -> None:
     _, out, _ = cli("identify", "unknot")
     assert "0_1, by grid of size 2" in out and "proven         yes" in out
     _, out, _ = cli("identify", "T(4,5)")
-    assert "knot           no knot of up to 13 crossings\n" in out and "proven" not in out
+    assert "knot           T(4,5), by name; no knot of up to 13 crossings\n" in out
+    assert "proven" not in out
+    braid = f"BR[4, {{{', '.join(['1, 2, 3'] * 5)}}}]"
+    _, out, _ = cli("identify", braid)
+    assert "knot           no knot of up to 13 crossings\n" in out
 
 
 def test_too_large_a_diagram_is_said_to_be(cli: Cli, tmp_path: Path) -> None:

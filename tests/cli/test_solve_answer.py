@@ -24,6 +24,23 @@ def test_the_first_screen(cli: Cli) -> None:
     assert "the leader never crosses its own tether" in " ".join(out.split())
 
 
+@pytest.mark.parametrize(
+    ("knot", "heading"),
+    [
+        ("trefoil", "3_1 or its mirror image (KnotInfo): 3"),
+        ("DT: [(4, 6, 2)]", "DT code = 3_1 or its mirror image (as given): 3"),
+        ("T(2,3)", "T(2,3) = 3_1 (torus knot): 3"),
+        (
+            "DT: [(4, 6, 2, 10, 12, 8)]",
+            "DT code = 3_1#3_1 or 3_1#m3_1 or m3_1#m3_1 (as given): 3",
+        ),
+    ],
+)
+def test_the_heading_says_which_knots_it_may_be(cli: Cli, knot: str, heading: str) -> None:
+    _, out, _ = cli("solve", knot, "--budget", "200")
+    assert out.startswith(heading)
+
+
 def test_json_holds_sets_that_fly_reads(cli: Cli, tmp_path: Path) -> None:
     content = cli.json("solve", "7 Var2", *QUICKLY)
     assert content["identified"] == ["7_6"] or content["identified"] == ["m7_6"]
