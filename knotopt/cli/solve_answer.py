@@ -145,6 +145,8 @@ def _heading(found: Answer) -> str:
     name, names = found.named.name, candidates_in_words(found.identified)
     if name in found.identified.candidates:
         return name_given(found.named, found.identified) or names
+    if not names and found.named.source == "torus knot":
+        return name
     return f"{name} = {names or 'not named by the tables'}"
 
 

@@ -118,7 +118,9 @@ def answer(
     (5, 10, True)
     """
     identified = identify_read(named, seed=seed)
-    known = known_of_knot(identified.candidates, identified.invariants.alexander or ())
+    # A torus knot beyond the tables is known by its name.
+    own = (named.name,) if named.source == "torus knot" else ()
+    known = known_of_knot(identified.candidates or own, identified.invariants.alexander or ())
     laid = best_supports(named.diagram, Requirements("loops"), limits=limits).best
     start = min(named.diagram, identified.grid, key=lambda grid: grid.size)
     safe = None

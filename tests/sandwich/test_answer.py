@@ -81,6 +81,11 @@ def test_a_knot_in_no_table_is_no_unknot() -> None:
     assert found.known.needed.robots == 4 and not found.is_unknot and not found.is_settled
 
 
+def test_a_torus_knot_beyond_the_tables_is_known_by_its_name() -> None:
+    found = answer(read_knot("T(2,15)"), budget=Budget(grids=100))
+    assert (found.identified.candidates, found.known) == ((), known_of_knot(["T(2,15)"]))
+
+
 def test_an_unknot_is_settled_on_any_diagram() -> None:
     marks = [[1, 3], [1, 5], [2, 1], [2, 4], [3, 1], [3, 2], [4, 2], [4, 3], [5, 4], [5, 5]]
     found = answer(read_knot(marks), budget=FEW)
