@@ -45,7 +45,7 @@ ALLOWED: Mapping[str, str] = {
     "flight": "showing formulations errors arrays ranges diagram cable topology verify supports "
     "path",
     "laid": "formulations errors arrays diagram planar cable supports path flight",
-    "sandwich": "formulations diagram catalogue identify reading search supports laid",
+    "sandwich": "formulations errors diagram catalogue identify reading search supports laid",
     "sim": "errors arrays ranges diagram cable catalogue verify flight",
     "rehearsal": "formulations errors arrays ranges diagram cable supports path flight sim",
     # What is made of the results.
