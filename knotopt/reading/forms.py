@@ -31,6 +31,8 @@ class Form:
         Keys of a JSON object that hold a knot in this form; in lower case.
     only_named : bool
         Whether it is read only if its name or key says so.
+    has_lines : bool
+        Whether it has columns and rows, of which one may be said to pass over.
     """
 
     name: str
@@ -38,18 +40,20 @@ class Form:
     read: Callable[[Content, Asked], Reading | None]
     keys: tuple[str, ...] = ()
     only_named: bool = False
+    has_lines: bool = False
 
 
 FORMS: tuple[Form, ...] = (
     Form("name", "name", names.read),
-    Form("matrix", "matrix", matrix.read, ("matrix",)),
-    Form("marks", "marks of a grid", marks.read, ("grid", "marks")),
+    Form("matrix", "matrix", matrix.read, ("matrix",), has_lines=True),
+    Form("marks", "marks of a grid", marks.read, ("grid", "marks"), has_lines=True),
     Form(
         "grid_notation",
         "KnotInfo's grid notation",
         marks.read_grid_notation,
         ("grid_notation",),
         only_named=True,
+        has_lines=True,
     ),
     Form("pd", "PD code", pd.read, ("pd", "pd_code", "pd_notation")),
     Form("dt", "DT code", dt.read, ("dt", "dt_code", "dt_notation")),
@@ -59,8 +63,14 @@ FORMS: tuple[Form, ...] = (
         gauss.read,
         ("gauss", "gauss_code", "gauss_notation", "oriented_gauss_code"),
     ),
-    Form("xo", "grid of X and O", xo.read),
-    Form("arc", "arc presentation", arc.read, ("arc_notation", "arc_presentation", "arcs", "arc")),
+    Form("xo", "grid of X and O", xo.read, has_lines=True),
+    Form(
+        "arc",
+        "arc presentation",
+        arc.read,
+        ("arc_notation", "arc_presentation", "arcs", "arc"),
+        has_lines=True,
+    ),
     Form("braid", "braid word", braid.read, ("braid", "br", "braid_word", "braid_notation")),
     Form("curve", "curve in space", curve.read, ("points", "curve", "coordinates")),
 )

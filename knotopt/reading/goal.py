@@ -11,7 +11,7 @@ from typing import Any
 from knotopt.cable.cable import Cable
 from knotopt.errors import CutError, FileFormatError
 from knotopt.reading.content import Content
-from knotopt.reading.knot import read_knot
+from knotopt.reading.knot import check_no_over, read_knot
 from knotopt.reading.source import read_source
 from knotopt.topology.cable_state import cable_state
 from knotopt.topology.state import RopeState, RopeStateError
@@ -112,6 +112,7 @@ def read_goal(
         raise FileFormatError(f"{source.where}: {error}") from error
     if state is not None:
         name = source.name or "Gauss code"
+        check_no_over(over, "rope's state")
         if cut is not None:
             raise CutError(f"{name} is the state of a rope, which has no grid to cut at {cut}")
         return Goal(_with(state.mirror() if mirror else state, which), name, source.words)

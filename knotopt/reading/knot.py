@@ -15,12 +15,14 @@ from knotopt.reading import xo
 from knotopt.reading.codes import check_crossings
 from knotopt.reading.content import Content
 from knotopt.reading.forms import FORMS, Form
-from knotopt.reading.lists import Lists
 from knotopt.reading.miss import miss
 from knotopt.reading.names import mirror_name
 from knotopt.reading.over import COLUMNS, ROWS
 from knotopt.reading.record import Asked, NamedDiagram, Reading
 from knotopt.reading.source import Source, read_source
+from knotopt.reading.values import content_of
+
+NAME_KEY = "name"  # of an object that says nothing else
 
 
 def read_knot(
@@ -32,10 +34,11 @@ def read_knot(
     ----------
     knot : str, Path or object
         A text in one of the forms of `knotopt.reading.forms`; the path of a file with one, whatever
-        its name; "-" for standard input; or a value: a grid, nested lists, an array, a planar
-        diagram. A text that is the path of a file is that file.
+        its name; "-" for standard input; or a value: a grid, nested lists, an array, a table of
+        pandas, a planar diagram, a link. A text that is the path of a file is that file.
     over : str, optional
-        "columns" or "rows", which pass over in a grid; by default as the form has it.
+        "columns" or "rows", which pass over in a grid; by default as the form has it. Names, codes
+        and curves, which have no such lines, are refused.
     mirror : bool
         The mirror image of what is read.
     form : str, optional
@@ -75,13 +78,16 @@ def read_knot(
         content = Content(source.text)
     else:
         source = Source("", "", "given")
-        content = Content("", Lists(_plain(knot)))
+        content = content_of(knot)
     try:
         if isinstance(content.value, GridDiagram | PlanarDiagram):
             what = "grid" if isinstance(content.value, GridDiagram) else "planar diagram"
-            found, title = Reading(content.value), what
+            found, title, has_lines = Reading(content.value), what, False
         else:
-            found, title = _read(content, asked, only)
+            found, read_as = _read(content, asked, only)
+            title, has_lines = read_as.title, read_as.has_lines
+        if not has_lines:
+            check_no_over(over, title)
         return _finished(found, title, source, mirror=mirror)
     except KnotoptError as error:
         if source.name:
@@ -89,8 +95,8 @@ def read_knot(
         raise
 
 
-def _read(content: Content, asked: Asked, only: Form | None) -> tuple[Reading, str]:
-    """The reading of the first form that can be read, and the form's title."""
+def _read(content: Content, asked: Asked, only: Form | None) -> tuple[Reading, Form]:
+    """The reading of the first form that can be read, and the form."""
     if isinstance(content.value, str) and content.text.strip()[:1] in {'"', "'"}:
         content = content.without_quotes()
     forms = [form for form in FORMS if not form.only_named] if only is None else [only]
@@ -100,12 +106,28 @@ def _read(content: Content, asked: Asked, only: Form | None) -> tuple[Reading, s
     for form in forms:
         found = form.read(content, asked)
         if found is not None:
-            return found, form.title
+            return found, form
+    if content.key == NAME_KEY and only is None:
+        raise miss(content)
     if content.key and len(forms) == 1:
         raise FileFormatError(f'the key "{content.key}" holds no {forms[0].title}')
     if only is not None:
-        raise FileFormatError(f"this cannot be read as {only.name} ({only.title})")
+        raise FileFormatError(
+            f"this cannot be read as {only.name} ({only.title}){_instead(content, asked)}"
+        )
     raise miss(content)
+
+
+def _instead(content: Content, asked: Asked) -> str:
+    """As which form the content could be read, in words; "" if as none."""
+    for form in FORMS:
+        try:
+            fits = not form.only_named and form.read(content, Asked(asked.over)) is not None
+        except KnotoptError:
+            fits = False
+        if fits:
+            return f": it is of the form {form.name}"
+    return ""
 
 
 def _under_key(content: Content) -> tuple[Content, Form | None]:
@@ -117,6 +139,8 @@ def _under_key(content: Content) -> tuple[Content, Form | None]:
                 return content.inside(name, content.value[by_name[name]]), form
     if any(by_name.keys() >= {*pair} for pair in xo.PAIRS_OF_KEYS):
         return content, _form_named("xo")
+    if [*by_name] == [NAME_KEY]:
+        return content.inside(NAME_KEY, content.value[by_name[NAME_KEY]]), _form_named("name")
     found = ", ".join(map(repr, content.value)) or "none"
     raise FileFormatError(f'expected a key such as "grid", "matrix" or "pd_code", found {found}')
 
@@ -156,6 +180,20 @@ def _mirrored(named: NamedDiagram) -> NamedDiagram:
     )
 
 
+def check_no_over(over: str | None, title: str) -> None:
+    """Refuse to be asked who passes over in what has no columns and rows, or has said it itself.
+
+    Raises
+    ------
+    FileFormatError
+    """
+    if over is not None:
+        raise FileFormatError(
+            f"over {over} is about grids in writing (matrix, marks, arcs, X and O), and this is "
+            f"read as: {title}"
+        )
+
+
 def _checked_over(over: str | None) -> str | None:
     if over not in (None, COLUMNS, ROWS):
         raise FileFormatError(f"who passes over is {over!r}, not {COLUMNS} or {ROWS}")
@@ -169,14 +207,3 @@ def _form_named(name: str | None) -> Form | None:
         if form.name == name:
             return form
     raise FileFormatError(f"no form is named {name!r}; {', '.join(form.name for form in FORMS)}")
-
-
-def _plain(value: Any) -> Any:
-    """Lists of an array; anything else as it is, tuples as lists."""
-    if hasattr(value, "tolist"):
-        return value.tolist()
-    if isinstance(value, list | tuple):
-        return [_plain(entry) for entry in value]
-    if isinstance(value, dict):
-        return {key: _plain(entry) for key, entry in value.items()}
-    return value

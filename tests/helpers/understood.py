@@ -16,6 +16,6 @@ def understood(knot: Any, form: str | None = None) -> tuple[str, PlanarDiagram, 
     """The form's title, the planar diagram that is read, and the notes."""
     text = isinstance(knot, str)
     content = Content(read_source(knot).text) if text else Content("", Lists(knot))
-    found, title = _read(content, Asked(form=form), _form_named(form))
-    assert isinstance(found.diagram, PlanarDiagram), title
-    return title, found.diagram, tuple(found.notes)
+    found, read_as = _read(content, Asked(form=form), _form_named(form))
+    assert isinstance(found.diagram, PlanarDiagram), read_as.title
+    return read_as.title, found.diagram, tuple(found.notes)

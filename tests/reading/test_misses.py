@@ -8,8 +8,10 @@ import pytest
 
 from knotopt.errors import DiagramError, FileFormatError, GridError, KnotoptError, UnknownKnotError
 from knotopt.reading.forms import FORMS
+from knotopt.reading.goal import read_goal
 from knotopt.reading.knot import read_knot
 
+ZERO_ONE = "A,B,C,D,E\n1,0,0,1,0\n0,1,0,0,1\n1,0,1,0,0\n0,1,0,1,0\n0,0,1,0,1\n"
 MISSES = [
     ("", FileFormatError, "there is nothing in it"),
     (" \n", FileFormatError, "there is nothing in it"),
@@ -52,7 +54,11 @@ MISSES = [
     ("[1, -2, 3, -1, 2, -4]", DiagramError, "crossing 3 is visited once, at 3"),
     ("BR[2, {1, 1, 3}]", DiagramError, "letter 3 of the braid word is 3"),
     ("4 6 2\n4 6 8 2\n", FileFormatError, "2 rows of different lengths, 3 and 4 numbers: no grid"),
-    ("A,B\n1,1\n1,1\n", FileFormatError, "2 rows of 0 and 1, where a matrix has -1"),
+    (
+        "A,B,C,D,E\n1,0,0,1,0\n0,1,0,0,1\n1,0,1,0,0\n0,1,0,1,0\n0,0,1,0,1\n",
+        FileFormatError,
+        "5 rows of 0 and 1, where a matrix has -1",
+    ),
     ("3_1#", UnknownKnotError, "'3_1#' lacks a summand before or behind a sign #"),
     ("3_1 ## 4_1", UnknownKnotError, "lacks a summand"),
     ("T(2,4)", GridError, r"T\(2,4\) is a link of 2 components"),
@@ -83,5 +89,20 @@ def test_words_of_options() -> None:
         read_knot("3_1", form="knot")
     with pytest.raises(FileFormatError, match="passes over is 'left', not columns or rows"):
         read_knot("3_1", over="left")
-    with pytest.raises(FileFormatError, match=r"cannot be read as matrix \(matrix\)"):
+    with pytest.raises(FileFormatError, match=r"read as matrix \(matrix\): it is of the form name"):
         read_knot("3_1", form="matrix")
+    with pytest.raises(FileFormatError, match=r"cannot be read as curve \(curve in space\)$"):
+        read_knot("a knot", form="curve")
+
+
+@pytest.mark.parametrize(
+    "knot", ["3_1", "7 var1", "[4, 6, 2]", "O1+U2+O3+U1+O2+U3+", "BR[2,{1,1,1}]"]
+)
+def test_who_passes_over_is_asked_of_written_grids_only(knot: str) -> None:
+    for over in ("rows", "columns"):
+        with pytest.raises(FileFormatError, match=f"over {over} is about grids in writing"):
+            read_knot(knot, over=over)
+    with pytest.raises(FileFormatError, match="over rows is about grids in writing"):
+        read_knot(read_knot(knot).diagram, over="rows")
+    with pytest.raises(FileFormatError, match="this is read as: rope's state"):
+        read_goal("O1+ U2+ O3+ U1+ O2+ U3+", over="rows")
