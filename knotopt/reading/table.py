@@ -103,15 +103,25 @@ def _drop_ends(cells: list[list[Cell]]) -> None:
 
 
 def _has_index(cells: Sequence[Sequence[Cell]]) -> bool:
-    """Whether pandas' header and index stand around the table."""
+    """Whether a header and an index stand around the table, as pandas and spreadsheets have them.
+
+    The index counts the rows, or has words where the other cells have none.
+    """
     header, *rows = cells
     counted = [*range(len(rows))]
     firsts = [row[0] for row in rows]
     from_one = [k + 1 for k in counted]
     if firsts not in (counted, from_one, from_one[::-1]):
-        return False
+        others = [cell for row in rows for cell in row[1:]]
+        return header[0] == "" and all(map(_is_word, firsts)) and not any(map(_is_word, others))
     is_named = str(header[0]).lower() in ("", "index", "unnamed: 0")  # as pandas has a nameless one
-    return is_named or {*map(len, rows)} == {len(header) + 1}
+    is_square = len(header) == len(cells) and all(map(_is_word, header))
+    return is_named or is_square or {*map(len, rows)} == {len(header) + 1}
+
+
+def _is_word(cell: Cell) -> bool:
+    """Whether a cell has text that is no number."""
+    return isinstance(cell, str) and cell != ""
 
 
 def _is_header(cells: Sequence[Sequence[Any]]) -> bool:
@@ -122,8 +132,8 @@ def _is_header(cells: Sequence[Sequence[Any]]) -> bool:
     header, *rows = cells
     words = [cell for cell in header if isinstance(cell, str)]
     if any(re.search(r"[^\W_]{2}|[xyzijr]$", word, re.I) for word in words):
-        return not any(isinstance(cell, str) and cell for cell in rows[0])
+        return not any(map(_is_word, rows[0]))
     if len(words) == len(header) and all(re.match(r"[^\W\d_]", word) for word in words):
-        return not any(isinstance(cell, str) and cell for row in rows for cell in row)
+        return not any(_is_word(cell) for row in rows for cell in row)
     counted = [*range(len(header))]
     return list(header) in (counted, [k + 1 for k in counted]) and len(rows) == len(header) > 2

@@ -41,7 +41,7 @@ def test_every_form_is_read_back(
     diagrams(3),
     st.sampled_from([",", ";", "\t"]),
     st.sampled_from(["none", "letters", "words"]),
-    st.sampled_from(["none", "up", "down", "from 0"]),
+    st.sampled_from(["none", "up", "down", "from 0", "letters", "named"]),
     st.sampled_from(["", "0"]),
 )
 def test_empty_cells_of_a_matrix_are_zeros(
@@ -54,8 +54,9 @@ def test_empty_cells_of_a_matrix_are_zeros(
     if header != "none":
         cells.insert(0, names)
         if index != "none":
-            counts = {"up": range(1, size + 1), "down": range(size, 0, -1), "from 0": range(size)}
-            firsts = ["", *map(str, counts[index])]
+            counts = {"down": range(size, 0, -1), "from 0": range(size), "letters": names}
+            firsts = ["row" if index == "named" else ""]
+            firsts += map(str, counts.get(index, range(1, size + 1)))
             cells = [[first, *row] for first, row in zip(firsts, cells, strict=True)]
     found = read_knot("\n".join(map(separator.join, cells)))
     assert (found.form, found.diagram) == ("matrix", diagram)
